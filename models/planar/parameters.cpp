@@ -1,0 +1,1 @@
+#include "models/planar/parameters.h"
