@@ -3,16 +3,22 @@
 
 #include <CLI/CLI.hpp>
 
+#include "apps/common_options.h"
 #include "core/io/error.h"
 
 int main(int argc, char** argv) {
-  CLI::App app{"Kingpin: what does the driver's hand feel when one wheel hits an obstacle?"};
+  using namespace kingpin;
+  CLI::App app{"Kingpin: what does the driver's hand feel when one wheel hits an obstacle?",
+               "kingpin"};
+  app.require_subcommand(1);
+  app.set_version_flag("--version", KINGPIN_VERSION);
+  apps::CommonOptions options;
+  options.command_line.assign(argv, argv + argc);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    const int status = app.exit(error);
-    return status == 0 ? 0 : 2;
-  } catch (const kingpin::io::InputError& error) {
+    return app.exit(error) == 0 ? 0 : 2;
+  } catch (const io::InputError& error) {
     std::fprintf(stderr, "kingpin: %s\n", error.what());
     return 2;
   } catch (const std::exception& error) {

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace CLI {
+class App;
+}
+
+namespace kingpin::apps {
+
+/// Options that every verb understands the same way.
+struct CommonOptions {
+  std::string output;  ///< -o PATH; empty: results/<name>, or standard output where a verb prints
+  std::vector<std::string> sets;  ///< --set path=value, in the order given
+  int threads = 0;                ///< 0: as many as the machine has
+  std::optional<std::uint64_t> seed;
+  bool quiet = false;
+  bool json = false;                      ///< machine-readable summary on standard output
+  std::vector<std::string> command_line;  ///< as typed, for the run manifest
+};
+
+/// Adds the options above to a verb.
+void AddCommonOptions(CLI::App& verb, CommonOptions& options);
+
+/// Verbs. Each adds its subcommand, whose callback does the work and throws io::InputError (status
+/// 2) or any other exception (status 1).
+void AddVerbCheck(CLI::App& app, CommonOptions& options);
+void AddVerbMetrics(CLI::App& app, CommonOptions& options);
+void AddVerbModes(CLI::App& app, CommonOptions& options);
+void AddVerbOptimise(CLI::App& app, CommonOptions& options);
+void AddVerbSchema(CLI::App& app, CommonOptions& options);
+void AddVerbSimulate(CLI::App& app, CommonOptions& options);
+void AddVerbStudy(CLI::App& app, CommonOptions& options);
+
+}  // namespace kingpin::apps
