@@ -5,6 +5,18 @@
 #include <fmt/format.h>
 
 namespace kingpin::io {
+namespace {
+
+std::string FormatProblems(const std::vector<InputProblem>& problems) {
+  std::string text;
+  for (const InputProblem& problem : problems) {
+    if (!text.empty()) text += '\n';
+    text += FormatProblem(problem);
+  }
+  return text;
+}
+
+}  // namespace
 
 std::string FormatProblem(const InputProblem& problem) {
   std::string text;
@@ -22,6 +34,9 @@ std::string FormatProblem(const InputProblem& problem) {
 }
 
 InputError::InputError(InputProblem problem)
-    : std::runtime_error(FormatProblem(problem)), problem_(std::move(problem)) {}
+    : InputError(std::vector<InputProblem>{std::move(problem)}) {}
+
+InputError::InputError(std::vector<InputProblem> problems)
+    : std::runtime_error(FormatProblems(problems)), problems_(std::move(problems)) {}
 
 }  // namespace kingpin::io
