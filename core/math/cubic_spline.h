@@ -1,0 +1,261 @@
+#pragma once
+
+#include "core/math/scalar.h"
+
+/// Piecewise cubic interpolants S(x) through (x_k, f_k), continued linearly outside the nodes.
+///
+/// Both kinds are held as increments from one node, the anchor (the node nearest to x = 0):
+///
+///   S(x) = f_a + Σ_right p_k(clamp(x − x_k, 0, h_k)) + Σ_left p_k(clamp(x_{k+1} − x, 0, h_k)) +
+///   tails, p_k(t) = t (b_k + t (c_k + t d_k)).
+///
+/// A segment that x has not reached adds exactly zero, one that it has passed adds its full
+/// increment. This needs neither a search nor a gather, so lanes with different nodes and arguments
+/// run the same instructions; and segments that no lane has reached can be skipped without changing
+/// one bit.
+///
+/// Derivatives through Dual are exact in x (of the right-hand piece at a node) and in the node
+/// values.
+///
+/// Sources: natural spline, e.g. de Boor, A Practical Guide to Splines, ch. IV; monotone slopes:
+/// Fritsch and Butland, SIAM J. Sci. Stat. Comput. 5 (1984), within the region of Fritsch and
+/// Carlson, SIAM J. Numer. Anal. 17 (1980).
+namespace kingpin::math {
+
+struct SplineShape {
+  int count = 0;   ///< number of nodes; 0 is the function that is zero everywhere
+  int anchor = 0;  ///< number of the node nearest to zero
+};
+
+/// The numbers of a spline; nothing but S, so that lanes can be packed from scalar splines.
+template <class S, int kMaxNodes>
+struct SplineSegments {
+  struct Segment {
+    S start;  ///< where t = 0: the left node of a segment right of the anchor, else the right node
+    S width;
+    S b, c, d;
+  };
+  S anchor_value;
+  S first, last;  ///< outermost nodes
+  S slope_left, slope_right;
+  Segment segment[kMaxNodes - 1];
+};
+
+/// S(x). X may be S or, for S = double, a Dual.
+template <class S, int kMaxNodes, class X>
+KINGPIN_INLINE X EvaluateSpline(const SplineShape& shape, const SplineSegments<S, kMaxNodes>& s,
+                                const X& x) {
+  const X zero(0.0);
+  if (shape.count == 0) return zero;
+  X sum = zero + s.anchor_value;
+  for (int k = shape.anchor;; ++k) {
+    if (k == shape.count - 1) {
+      const X t = x - s.last;
+      const auto beyond = t >= zero;
+      if (Any(beyond)) sum = sum + Select(beyond, t, zero) * s.slope_right;
+      break;
+    }
+    const auto& p = s.segment[k];
+    X t = x - p.start;
+    const auto reached = t >= zero;
+    if (!Any(reached)) break;
+    t = Select(reached, t, zero);
+    t = Min(t, X(p.width));
+    sum = sum + t * (p.b + t * (p.c + t * p.d));
+  }
+  for (int k = shape.anchor - 1;; --k) {
+    if (k < 0) {
+      const X t = s.first - x;
+      const auto beyond = t > zero;
+      if (Any(beyond)) sum = sum - Select(beyond, t, zero) * s.slope_left;
+      break;
+    }
+    const auto& p = s.segment[k];
+    X t = p.start - x;
+    const auto reached = t > zero;
+    if (!Any(reached)) break;
+    t = Select(reached, t, zero);
+    t = Select(t <= X(p.width), t, X(p.width));
+    sum = sum + t * (p.b + t * (p.c + t * p.d));
+  }
+  return sum;
+}
+
+/// dS/dx, of the right-hand piece at a node.
+template <class S, int kMaxNodes, class X>
+X EvaluateSplineSlope(const SplineShape& shape, const SplineSegments<S, kMaxNodes>& s, const X& x) {
+  const X zero(0.0);
+  if (shape.count == 0) return zero;
+  X slope = zero;
+  for (int k = 0; k < shape.count - 1; ++k) {
+    const auto& p = s.segment[k];
+    const bool right = k >= shape.anchor;
+    const X t = right ? x - p.start : p.start - x;
+    const X value = p.b + t * (X(2.0) * p.c + t * (X(3.0) * p.d));
+    if (right) {
+      slope = Select(t >= zero, Select(t < X(p.width), value, zero), slope);
+    } else {
+      slope = Select(t > zero, Select(t <= X(p.width), -value, slope), slope);
+    }
+  }
+  slope = Select(x >= X(s.last), X(s.slope_right), slope);
+  return Select(x < X(s.first), X(s.slope_left), slope);
+}
+
+/// ∫ S from the anchor node to x.
+template <class S, int kMaxNodes, class X>
+X EvaluateSplineIntegral(const SplineShape& shape, const SplineSegments<S, kMaxNodes>& s,
+                         const X& x) {
+  const X zero(0.0);
+  if (shape.count == 0) return zero;
+  const S anchor = shape.anchor == shape.count - 1 ? s.last : s.segment[shape.anchor].start;
+  X sum = (x - anchor) * s.anchor_value;
+  for (int k = 0; k < shape.count - 1; ++k) {
+    const auto& p = s.segment[k];
+    const bool right = k >= shape.anchor;
+    const X u = right ? x - p.start : p.start - x;
+    const X t = Min(Max(u, zero), X(p.width));
+    const X inside = t * t * (X(0.5) * p.b + t * (X(1.0 / 3.0) * p.c + t * (X(0.25) * p.d)));
+    const X full = X(p.width) * (p.b + X(p.width) * (p.c + X(p.width) * p.d));
+    const X area = inside + Max(u - p.width, zero) * full;
+    sum = right ? sum + area : sum - area;
+  }
+  const X above = Max(x - s.last, zero);
+  const X below = Max(s.first - x, zero);
+  return sum + X(0.5) * above * above * s.slope_right + X(0.5) * below * below * s.slope_left;
+}
+
+template <class S, int kMaxNodes = 16>
+class CubicSpline {
+ public:
+  using Segments = SplineSegments<S, kMaxNodes>;
+
+  /// The function that is zero everywhere.
+  CubicSpline() = default;
+
+  /// C2, second derivative zero at both ends (and outside). `count` nodes, 0 or 2...kMaxNodes, x
+  /// strictly increasing.
+  static CubicSpline MakeNatural(int count, const double* x, const S* f) {
+    S slope[kMaxNodes];
+    if (count > 0) CalcNaturalSlopes(count, x, f, slope);
+    return CubicSpline(count, x, f, slope);
+  }
+
+  /// C1, monotone wherever the nodes are, no overshoot.
+  static CubicSpline MakeMonotone(int count, const double* x, const S* f) {
+    S slope[kMaxNodes];
+    if (count > 0) CalcMonotoneSlopes(count, x, f, slope);
+    return CubicSpline(count, x, f, slope);
+  }
+
+  template <class X>
+  X operator()(const X& x) const {
+    return EvaluateSpline(shape_, segments_, x);
+  }
+  template <class X>
+  X CalcSlope(const X& x) const {
+    return EvaluateSplineSlope(shape_, segments_, x);
+  }
+  /// ∫ S from the node nearest to zero to x.
+  template <class X>
+  X CalcIntegral(const X& x) const {
+    return EvaluateSplineIntegral(shape_, segments_, x);
+  }
+
+  const SplineShape& shape() const { return shape_; }
+  const Segments& segments() const { return segments_; }
+
+ private:
+  CubicSpline(int count, const double* x, const S* f, const S* slope) {
+    shape_.count = count;
+    if (count == 0) return;
+    int a = 0;
+    for (int k = 1; k < count; ++k) {
+      if (Abs(x[k]) < Abs(x[a])) a = k;
+    }
+    shape_.anchor = a;
+    segments_.anchor_value = f[a];
+    segments_.first = S(x[0]);
+    segments_.last = S(x[count - 1]);
+    segments_.slope_left = slope[0];
+    segments_.slope_right = slope[count - 1];
+    for (int k = 0; k < count - 1; ++k) {
+      const double h = x[k + 1] - x[k];
+      const bool right = k >= a;
+      // From its inner node outwards: t grows away from the anchor.
+      const S rise = right ? (f[k + 1] - f[k]) * (1.0 / h) : (f[k] - f[k + 1]) * (1.0 / h);
+      const S inner = right ? slope[k] : -slope[k + 1];
+      const S outer = right ? slope[k + 1] : -slope[k];
+      auto& p = segments_.segment[k];
+      p.start = S(right ? x[k] : x[k + 1]);
+      p.width = S(h);
+      p.b = inner;
+      p.c = (3.0 * rise - 2.0 * inner - outer) * (1.0 / h);
+      p.d = (inner + outer - 2.0 * rise) * (1.0 / (h * h));
+    }
+  }
+
+  static void CalcNaturalSlopes(int n, const double* x, const S* f, S* slope) {
+    // Second derivatives m_k from the tridiagonal system
+    //   h_{k-1} m_{k-1} + 2 (h_{k-1} + h_k) m_k + h_k m_{k+1} = 6 (Δ_k − Δ_{k-1}),  m_0 = m_{n-1} =
+    //   0.
+    S m[kMaxNodes];
+    double upper[kMaxNodes] = {};
+    m[0] = S(0.0);
+    for (int k = 1; k < n - 1; ++k) {
+      const double h0 = x[k] - x[k - 1];
+      const double h1 = x[k + 1] - x[k];
+      const S right = 6.0 * ((f[k + 1] - f[k]) * (1.0 / h1) - (f[k] - f[k - 1]) * (1.0 / h0));
+      const double pivot = 2.0 * (h0 + h1) - h0 * upper[k - 1];
+      upper[k] = h1 / pivot;
+      m[k] = (right - h0 * m[k - 1]) * (1.0 / pivot);
+    }
+    m[n - 1] = S(0.0);
+    for (int k = n - 2; k > 0; --k) m[k] = m[k] - upper[k] * m[k + 1];
+    for (int k = 0; k < n - 1; ++k) {
+      const double h = x[k + 1] - x[k];
+      slope[k] = (f[k + 1] - f[k]) * (1.0 / h) - (h / 6.0) * (2.0 * m[k] + m[k + 1]);
+    }
+    const double h = x[n - 1] - x[n - 2];
+    slope[n - 1] = (f[n - 1] - f[n - 2]) * (1.0 / h) + (h / 6.0) * (m[n - 2] + 2.0 * m[n - 1]);
+  }
+
+  static void CalcMonotoneSlopes(int n, const double* x, const S* f, S* slope) {
+    S rise[kMaxNodes];
+    double h[kMaxNodes];
+    for (int k = 0; k < n - 1; ++k) {
+      h[k] = x[k + 1] - x[k];
+      rise[k] = (f[k + 1] - f[k]) * (1.0 / h[k]);
+    }
+    if (n == 2) {
+      slope[0] = slope[1] = rise[0];
+      return;
+    }
+    const S zero(0.0);
+    for (int k = 1; k < n - 1; ++k) {
+      const double w0 = 2.0 * h[k] + h[k - 1];
+      const double w1 = h[k] + 2.0 * h[k - 1];
+      const S product = rise[k - 1] * rise[k];
+      // (w0 + w1) / (w0/Δ0 + w1/Δ1), written without dividing by a vanishing Δ.
+      const S below = w0 * rise[k] + w1 * rise[k - 1];
+      const auto same_sign = product > zero;
+      slope[k] = Select(same_sign, (w0 + w1) * product / Select(same_sign, below, S(1.0)), zero);
+    }
+    slope[0] = CalcEndSlope(h[0], h[1], rise[0], rise[1]);
+    slope[n - 1] = CalcEndSlope(h[n - 2], h[n - 3], rise[n - 2], rise[n - 3]);
+  }
+
+  /// Three-point slope, limited so that the end piece stays monotone.
+  static S CalcEndSlope(double h0, double h1, const S& rise0, const S& rise1) {
+    const S zero(0.0);
+    S slope = ((2.0 * h0 + h1) * rise0 - h0 * rise1) * (1.0 / (h0 + h1));
+    slope = Select(slope * rise0 > zero, slope, zero);
+    const S limit = 3.0 * rise0;
+    return Select(Abs(slope) > Abs(limit), limit, slope);
+  }
+
+  SplineShape shape_;
+  Segments segments_{};
+};
+
+}  // namespace kingpin::math

@@ -1,0 +1,268 @@
+#pragma once
+
+#include "core/math/scalar.h"
+#include "models/planar/planar_model.h"
+
+/// Forces and accelerations of the planar model, written once for every scalar.
+///
+/// All elastic forces are −∂V/∂q of one potential and all damping forces −∂D/∂q̇ of one dissipation
+/// function:
+///
+///   V = ½ c_R δ_R² + ½ c_L d_L² + ∫S_N(d_N) + ½ c_k θ² (+ stops) + ½ k_ψ ψ² + ½ k_h φ²
+///   D = ½ η c_R l̇² + ½ η c_L ḋ_L² + ½ b_N ḋ_N² + ½ η c_k θ̇² + ½ η k_ψ ψ̇² + ½ b_R ẏ² + ½ b_h φ̇²
+///
+/// with the exact rotation Rot(ψ) of the carrier, the rod's elongation δ_R = |outer − inner| − l_0
+/// (tension positive), the twist θ = φ − i_U y, d_L and d_N along fixed directions. Mass matrix
+/// diag(m_s, m_s, I_s, m_R, I_sw). Added to these: the road force (−F_T, −ρ F_T) at Rot(ψ) (x_F,
+/// y_F); the assistance F_A = sign(M) f(|M|), M = c_k θ, on the rack; rack friction.
+///
+/// Options:
+/// - one-way rod (`two_way = false`, the literal form of the paper): δ_R ignores the rack, F e_y
+/// still pushes it. Not derived
+///   from a potential, so its energy balance does not close.
+/// - free play g: δ_R is replaced by its excess beyond ±g/2, and the rod's damper acts only there.
+/// - stops: beyond |θ| = θ_s the elastic torque grows with the stop's stiffness; the assistance
+/// still follows c_k θ.
+/// - lagged aligning torque −k_ψ z, ż = (ψ − z) V/σ: not conservative, its work is counted as the
+/// tyre's.
+/// - assistance lag: Ḟ = (F_A − F)/τ, or F̈ = ω² (F_A − F) − 2 ζ ω Ḟ.
+/// - friction limit μ (|F_R e_x| + preload) + constant; smoothed −limit v/√(v² + v_s²), or
+/// set-valued with the
+///   direction given by the caller (which locates the events).
+///
+/// Source: Szczotka 2011, section 2, corrected; docs/theory/planar-model.md.
+namespace kingpin::planar {
+
+/// Order of the extra states.
+enum ExtraState { kAligningState, kAssistState, kAssistRateState, kExtraStates };
+
+template <class S>
+struct State {
+  S q[kCoordinates];
+  S v[kCoordinates];
+  S extra[kExtraStates];  ///< lagged yaw [rad], lagged assistance [N], its rate [N/s]
+};
+
+/// What Coulomb friction does at the moment; not used by the other laws.
+enum class FrictionMode { kSlip, kStick };
+
+template <class S>
+struct Dynamics {
+  S a[kCoordinates];
+  S extra_rate[kExtraStates];
+  S rod_force;        ///< axial, tension positive [N]
+  S rod_rate;         ///< l̇ [m/s]
+  S rod_direction_x;  ///< from the rack to the carrier
+  S rod_direction_y;
+  S rack_rod_force;    ///< of the rod on the rack, along +y [N]
+  S torsion_torque;    ///< of the column, elastic and damping [N m]; + turns the rack to the left
+  S assist_force;      ///< on the rack, along +y [N]
+  S friction_force;    ///< on the rack, along +y [N]
+  S friction_limit;    ///< [N]
+  S dissipated_power;  ///< by dampers and friction, never negative [W]
+  S supplied_power;    ///< by the road, the assistance and a lagged aligning torque [W]
+};
+
+/// Accelerations, rates of the extra states and loads at (x, F_T).
+/// `slip` (Coulomb only): the sign of the sliding speed, lane by lane; 0 means that the rack
+/// sticks: its acceleration is zero and friction_force is the reaction that this takes, which the
+/// caller compares with friction_limit.
+template <class S>
+KINGPIN_INLINE void CalcDynamics(const Structure& st, const Constants<S>& k, const State<S>& x,
+                                 const S& road_force, const S& slip, Dynamics<S>& out) {
+  using math::Abs;
+  using math::Max;
+  using math::Min;
+  using math::Select;
+  using math::SinCos;
+  using math::Sqrt;
+  const S zero(0.0);
+  const S &dx = x.q[0], &dy = x.q[1], &psi = x.q[2], &rack = x.q[3], &phi = x.q[4];
+  const S &vx = x.v[0], &vy = x.v[1], &w = x.v[2], &rack_v = x.v[3], &phi_v = x.v[4];
+  S s, c;
+  SinCos(psi, s, c);
+  const S c1 = c - 1.0;
+
+  // Tie rod.
+  const S rx = c * k.outer_x - s * k.outer_y;
+  const S ry = s * k.outer_x + c * k.outer_y;
+  S move_x = dx + (c1 * k.outer_x - s * k.outer_y);
+  S move_y = dy + (s * k.outer_x + c1 * k.outer_y);
+  S rate_x = vx - w * ry;
+  S rate_y = vy + w * rx;
+  if (st.two_way) {
+    move_y = move_y - rack;
+    rate_y = rate_y - rack_v;
+  }
+  const S length_x = k.rod_x + move_x;
+  const S length_y = k.rod_y + move_y;
+  const S growth = move_x * (k.rod_x + length_x) + move_y * (k.rod_y + length_y);  // l² − l_0²
+  const S length = Sqrt(k.rod_length_squared + growth);
+  const S inverse_length = 1.0 / length;
+  const S ex = length_x * inverse_length;
+  const S ey = length_y * inverse_length;
+  S elongation = length - k.rod_length;
+  const S rod_rate = ex * rate_x + ey * rate_y;
+  S rod_damping_force = k.rod_damping * rod_rate;
+  if (st.has_free_play) {
+    const S slack = Max(Min(elongation, k.rod_half_play), -k.rod_half_play);
+    rod_damping_force = Select(Abs(elongation) > k.rod_half_play, rod_damping_force, zero);
+    elongation = elongation - slack;
+  }
+  const S rod_force = k.rod_stiffness * elongation + rod_damping_force;
+  const S rod_fx = rod_force * ex;
+  const S rod_fy = rod_force * ey;
+
+  // Supports.
+  const auto& l = k.lateral;
+  const S lateral_lever = c * l.lever - s * l.offset;
+  const S lateral_d = l.nx * dx + l.ny * dy + (s * l.lever + c1 * l.offset);
+  const S lateral_rate = l.nx * vx + l.ny * vy + w * lateral_lever;
+  const S lateral_force = k.lateral_stiffness * lateral_d + k.lateral_damping * lateral_rate;
+  const auto& n = k.longitudinal;
+  const S longitudinal_lever = c * n.lever - s * n.offset;
+  const S longitudinal_d = n.nx * dx + n.ny * dy + (s * n.lever + c1 * n.offset);
+  const S longitudinal_rate = n.nx * vx + n.ny * vy + w * longitudinal_lever;
+  const S longitudinal_force =
+      math::EvaluateSpline(st.longitudinal, k.longitudinal_force, longitudinal_d) +
+      k.longitudinal_damping * longitudinal_rate;
+
+  // Column and assistance.
+  const S twist = phi - k.gear_ratio * rack;
+  const S twist_rate = phi_v - k.gear_ratio * rack_v;
+  const S bar_torque = k.column_stiffness * twist;
+  S elastic_torque = bar_torque;
+  if (st.has_stops) {
+    const S beyond = twist - Max(Min(twist, k.stop_angle), -k.stop_angle);
+    elastic_torque = bar_torque + (k.stop_stiffness - k.column_stiffness) * beyond;
+  }
+  const S torque = elastic_torque + k.column_damping * twist_rate;
+  S assist = zero;
+  out.extra_rate[kAligningState] = zero;
+  out.extra_rate[kAssistState] = zero;
+  out.extra_rate[kAssistRateState] = zero;
+  if (st.assist.count > 0) {
+    const auto negative = bar_torque < zero;
+    const S magnitude = Select(negative, -bar_torque, bar_torque);
+    const S curve = math::EvaluateSpline(st.assist, k.assist_force, magnitude);
+    assist = Select(negative, -curve, curve);
+    if (st.assist_lag == AssistLag::kFirstOrder) {
+      out.extra_rate[kAssistState] = (assist - x.extra[kAssistState]) * k.assist_rate;
+      assist = x.extra[kAssistState];
+    } else if (st.assist_lag == AssistLag::kSecondOrder) {
+      out.extra_rate[kAssistState] = x.extra[kAssistRateState];
+      out.extra_rate[kAssistRateState] =
+          k.assist_frequency_squared * (assist - x.extra[kAssistState]) -
+          k.assist_two_zeta_omega * x.extra[kAssistRateState];
+      assist = x.extra[kAssistState];
+    }
+  }
+
+  // Carrier.
+  const S road_y = road_force * k.road_lateral_share;
+  const S road_lever = c * k.road_lever - s * k.road_offset;
+  const S sum_x = -rod_fx - lateral_force * l.nx - longitudinal_force * n.nx - road_force;
+  const S sum_y = -rod_fy - lateral_force * l.ny - longitudinal_force * n.ny - road_y;
+  S sum_psi = ry * rod_fx - rx * rod_fy - lateral_force * lateral_lever -
+              longitudinal_force * longitudinal_lever + road_force * road_lever;
+  S lagged_power = zero;
+  S aligning_dissipation = zero;
+  if (st.has_aligning_lag) {
+    const S moment = k.aligning_stiffness * x.extra[kAligningState];
+    sum_psi = sum_psi - moment;
+    lagged_power = -(moment * w);
+    out.extra_rate[kAligningState] = (psi - x.extra[kAligningState]) * k.aligning_rate;
+  } else if (st.has_aligning) {
+    sum_psi = sum_psi - k.aligning_stiffness * psi - k.aligning_damping * w;
+    aligning_dissipation = k.aligning_damping * w * w;
+  }
+
+  // Rack.
+  S sum_rack = rod_fy + k.gear_ratio * torque + assist - k.rack_damping * rack_v;
+  S friction = zero;
+  S limit = zero;
+  if (st.friction_law != FrictionLaw::kNone) {
+    limit = k.friction_coefficient * Abs(rod_fx) + k.friction_base;
+    if (st.friction_law == FrictionLaw::kSmoothed) {
+      friction = -(limit * rack_v) / Sqrt(rack_v * rack_v + k.friction_speed_squared);
+      sum_rack = sum_rack + friction;
+    } else {
+      const auto sticks = slip == zero;
+      friction = Select(sticks, -sum_rack, -(slip * limit));
+      sum_rack = Select(sticks, zero, sum_rack + friction);
+    }
+  }
+  const S sum_phi = -torque - k.hands_stiffness * phi - k.hands_damping * phi_v;
+
+  out.a[0] = sum_x * k.inverse_mass[0];
+  out.a[1] = sum_y * k.inverse_mass[1];
+  out.a[2] = sum_psi * k.inverse_mass[2];
+  out.a[3] = sum_rack * k.inverse_mass[3];
+  out.a[4] = sum_phi * k.inverse_mass[4];
+  out.rod_force = rod_force;
+  out.rod_rate = rod_rate;
+  out.rod_direction_x = ex;
+  out.rod_direction_y = ey;
+  out.rack_rod_force = rod_fy;
+  out.torsion_torque = torque;
+  out.assist_force = assist;
+  out.friction_force = friction;
+  out.friction_limit = limit;
+  out.dissipated_power =
+      rod_damping_force * rod_rate + k.lateral_damping * lateral_rate * lateral_rate +
+      k.longitudinal_damping * longitudinal_rate * longitudinal_rate +
+      k.column_damping * twist_rate * twist_rate + aligning_dissipation +
+      k.rack_damping * rack_v * rack_v + k.hands_damping * phi_v * phi_v - friction * rack_v;
+  out.supplied_power = road_force * (w * road_lever - vx - k.road_lateral_share * vy) +
+                       assist * rack_v + lagged_power;
+}
+
+/// ½ q̇ᵀ M q̇ [J].
+template <class S>
+S CalcKineticEnergy(const Constants<S>& k, const State<S>& x) {
+  S sum(0.0);
+  for (int i = 0; i < kCoordinates; ++i) sum = sum + x.v[i] * x.v[i] / k.inverse_mass[i];
+  return 0.5 * sum;
+}
+
+/// V(q) [J], zero at rest.
+template <class S>
+S CalcPotentialEnergy(const Structure& st, const Constants<S>& k, const State<S>& x) {
+  using math::Max;
+  using math::Min;
+  using math::SinCos;
+  using math::Sqrt;
+  const S &psi = x.q[2], &rack = x.q[3], &phi = x.q[4];
+  S s, c;
+  SinCos(psi, s, c);
+  const S c1 = c - 1.0;
+  const S move_x = x.q[0] + (c1 * k.outer_x - s * k.outer_y);
+  S move_y = x.q[1] + (s * k.outer_x + c1 * k.outer_y);
+  if (st.two_way) move_y = move_y - rack;
+  const S growth = move_x * (2.0 * k.rod_x + move_x) + move_y * (2.0 * k.rod_y + move_y);
+  S elongation = Sqrt(k.rod_length_squared + growth) - k.rod_length;
+  if (st.has_free_play) {
+    elongation = elongation - Max(Min(elongation, k.rod_half_play), -k.rod_half_play);
+  }
+  const auto elongate = [&](const Line<S>& line) {
+    return line.nx * x.q[0] + line.ny * x.q[1] + (s * line.lever + c1 * line.offset);
+  };
+  const S lateral = elongate(k.lateral);
+  const S longitudinal = elongate(k.longitudinal);
+  const S twist = phi - k.gear_ratio * rack;
+  S energy =
+      0.5 * (k.rod_stiffness * elongation * elongation + k.lateral_stiffness * lateral * lateral +
+             k.column_stiffness * twist * twist + k.hands_stiffness * phi * phi) +
+      math::EvaluateSplineIntegral(st.longitudinal, k.longitudinal_force, longitudinal) -
+      math::EvaluateSplineIntegral(st.longitudinal, k.longitudinal_force, S(0.0));
+  if (st.has_stops) {
+    const S beyond = twist - Max(Min(twist, k.stop_angle), -k.stop_angle);
+    energy = energy + 0.5 * (k.stop_stiffness - k.column_stiffness) * beyond * beyond;
+  }
+  if (st.has_aligning && !st.has_aligning_lag) {
+    energy = energy + 0.5 * k.aligning_stiffness * psi * psi;
+  }
+  return energy;
+}
+
+}  // namespace kingpin::planar
