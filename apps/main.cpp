@@ -14,6 +14,8 @@ int main(int argc, char** argv) {
   app.set_version_flag("--version", KINGPIN_VERSION);
   apps::CommonOptions options;
   options.command_line.assign(argv, argv + argc);
+  apps::AddVerbCheck(app, options);
+  apps::AddVerbSchema(app, options);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -334,7 +334,7 @@ std::string ReadTextFile(const std::filesystem::path& path, std::size_t largest)
     const std::filesystem::path parent =
         path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
     if (!std::filesystem::is_directory(parent, ignored)) {
-      fail("no such file", "an existing file",
+      fail("no file of this name", "an existing file",
            fmt::format("its folder '{}' does not exist either", parent.string()));
     }
     std::vector<std::string> names;
@@ -345,7 +345,7 @@ std::string ReadTextFile(const std::filesystem::path& path, std::size_t largest)
       names.push_back(entry->path().filename().string());
     }
     const std::string nearest = FindNearestName(path.filename().string(), names);
-    fail("no such file", "an existing file",
+    fail("no file of this name", "an existing file",
          nearest.empty()
              ? ""
              : fmt::format("did you mean '{}'?", (path.parent_path() / nearest).string()));

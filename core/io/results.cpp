@@ -1,0 +1,225 @@
+#include "core/io/results.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <ctime>
+#include <limits>
+#include <set>
+#include <system_error>
+
+#include <fcntl.h>
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <signal.h>
+#include <unistd.h>
+
+#include "core/io/error.h"
+#include "core/io/json_text.h"
+#include "core/io/output_failure.h"
+#include "core/io/sha256.h"
+#include "core/io/version.h"
+#include "core/io/yaml_document.h"
+
+namespace kingpin::io {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kManifest = "manifest.json";
+
+fs::path ParentOf(const fs::path& path) {
+  return path.has_parent_path() ? path.parent_path() : fs::path(".");
+}
+
+std::string PartialPrefix(const fs::path& target) {
+  return fmt::format(".{}.partial-", target.filename().string());
+}
+
+// Only a folder that we made, or an empty one, may be replaced.
+void CheckTarget(const fs::path& target) {
+  std::error_code error;
+  const fs::file_status status = fs::symlink_status(target, error);
+  if (!fs::exists(status)) return;
+  const auto fail = [&target](const char* found) {
+    throw InputError(InputProblem{.file = target.string(),
+                                  .found = found,
+                                  .expected = "a new, an empty or an earlier result folder",
+                                  .suggestion = "choose another place with -o"});
+  };
+  if (fs::is_symlink(status)) fail("a symbolic link");
+  if (!fs::is_directory(status)) fail("a file");
+  const bool is_empty = fs::is_empty(target, error);
+  if (error) FailOutput(target, "reading the folder", error.value());
+  if (!is_empty && !fs::is_regular_file(target / kManifest, error)) {
+    fail("a folder with files that are not a result");
+  }
+}
+
+// Leftovers of killed runs on this machine.
+void RemoveLeftovers(const fs::path& target) {
+  const std::string prefix = PartialPrefix(target);
+  std::error_code error;
+  std::vector<fs::path> leftovers;
+  for (auto entry = fs::directory_iterator(ParentOf(target), error);
+       !error && entry != fs::directory_iterator(); entry.increment(error)) {
+    const std::string name = entry->path().filename().string();
+    if (!name.starts_with(prefix)) continue;
+    long pid = 0;
+    char rest = 0;
+    if (std::sscanf(name.c_str() + prefix.size(), "%ld-%c", &pid, &rest) != 2 || pid <= 0) continue;
+    if (::kill(static_cast<pid_t>(pid), 0) == 0 || errno != ESRCH) continue;
+    leftovers.push_back(entry->path());
+  }
+  for (const fs::path& leftover : leftovers) fs::remove_all(leftover, error);
+}
+
+void SyncTree(const fs::path& root) {
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(root)) {
+    if (entry.is_directory()) {
+      SyncDirectory(entry.path());
+    } else if (entry.is_regular_file()) {
+      const int descriptor = ::open(entry.path().c_str(), O_RDONLY | O_CLOEXEC);
+      if (descriptor < 0) continue;
+      const bool is_safe = ::fsync(descriptor) == 0 || errno == EINVAL || errno == ENOTSUP;
+      const int reason = errno;
+      ::close(descriptor);
+      if (!is_safe) FailOutput(entry.path(), "writing", reason);
+    }
+  }
+  SyncDirectory(root);
+}
+
+std::string FormatTime(std::chrono::system_clock::time_point time) {
+  return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}",
+                     fmt::gmtime(std::chrono::system_clock::to_time_t(time)));
+}
+
+// Names for copies: the paths below the folder that all of them share.
+std::vector<fs::path> MakeCopyNames(const std::vector<fs::path>& files) {
+  std::vector<fs::path> absolute;
+  for (const fs::path& file : files) absolute.push_back(fs::absolute(file).lexically_normal());
+  fs::path common = absolute.empty() ? fs::path() : absolute.front().parent_path();
+  for (const fs::path& file : absolute) {
+    while (true) {
+      const fs::path relative = file.lexically_relative(common);
+      if (!relative.empty() && *relative.begin() != "..") break;
+      common = common.parent_path();
+    }
+  }
+  std::vector<fs::path> names;
+  for (const fs::path& file : absolute) names.push_back(file.lexically_relative(common));
+  return names;
+}
+
+}  // namespace
+
+ResultDirectory::ResultDirectory(fs::path target) : target_(std::move(target)) {
+  if (!target_.has_filename()) target_ = target_.parent_path();  // a trailing slash
+  if (target_.empty() || target_.filename() == "." || target_.filename() == "..") {
+    throw InputError(InputProblem{.file = "command line",
+                                  .key = "-o",
+                                  .found = fmt::format("'{}'", target_.string()),
+                                  .expected = "a folder with a name of its own"});
+  }
+  CheckTarget(target_);
+  MakeDirectories(target_.parent_path());
+  RemoveLeftovers(target_);
+  // Two results of one process may be under way; the number after the process tells them apart.
+  for (int i = 0;; ++i) {
+    partial_ = ParentOf(target_) /
+               fmt::format("{}{}-{}", PartialPrefix(target_), static_cast<long>(::getpid()), i);
+    std::error_code error;
+    if (fs::create_directory(partial_, error)) break;
+    if (error) FailOutput(target_, "making the folder", error.value());
+  }
+}
+
+ResultDirectory::~ResultDirectory() {
+  std::error_code ignored;
+  if (!is_committed_) fs::remove_all(partial_, ignored);
+}
+
+void ResultDirectory::WriteText(const fs::path& name, std::string_view text) {
+  const fs::path path = partial_ / name;
+  MakeDirectories(path.parent_path());
+  OutputFile file(path);
+  file.Write(text);
+  file.Close();
+}
+
+void ResultDirectory::WriteJson(const fs::path& name, const nlohmann::ordered_json& json) {
+  WriteText(name, FormatJson(json));
+}
+
+void ResultDirectory::Commit() {
+  SyncTree(partial_);
+  CheckTarget(target_);  // it may have changed while we worked
+  std::error_code error;
+  if (!fs::exists(target_, error)) {
+    if (::rename(partial_.c_str(), target_.c_str()) != 0) {
+      FailOutput(target_, "renaming the finished folder", errno);
+    }
+  } else if (::renameat2(AT_FDCWD, partial_.c_str(), AT_FDCWD, target_.c_str(), RENAME_EXCHANGE) ==
+             0) {
+    fs::remove_all(partial_, error);  // the older result now
+  } else {
+    // A file system without exchange: the older result steps aside first. A crash between the two
+    // renames leaves both folders whole under hidden names, and this one is never cleaned up.
+    const fs::path older =
+        ParentOf(target_) /
+        fmt::format(".{}.older-{}", target_.filename().string(), static_cast<long>(::getpid()));
+    if (::rename(target_.c_str(), older.c_str()) != 0) {
+      FailOutput(target_, "moving the earlier result aside", errno);
+    }
+    if (::rename(partial_.c_str(), target_.c_str()) != 0) {
+      const int reason = errno;
+      (void)::rename(older.c_str(), target_.c_str());
+      FailOutput(target_, "renaming the finished folder", reason);
+    }
+    fs::remove_all(older, error);
+  }
+  is_committed_ = true;
+  SyncDirectory(ParentOf(target_));
+}
+
+void WriteManifest(const RunManifest& manifest, ResultDirectory* results) {
+  nlohmann::ordered_json json;
+  const Version version = GetVersion();
+  json["program"] = "kingpin";
+  json["version"] = version.version;
+  json["revision"] = version.revision;
+  json["compiler"] = version.compiler;
+  json["build_type"] = version.build_type;
+  json["verb"] = manifest.verb;
+  json["command_line"] = manifest.command_line;
+  json["start"] = FormatTime(manifest.start);
+  json["duration"] = {{"value", manifest.duration}, {"unit", "s"}};
+  json["threads"] = manifest.threads;
+  json["instruction_set"] = manifest.instruction_set;
+  if (manifest.seed) json["seed"] = *manifest.seed;
+  json["overrides"] = nlohmann::ordered_json::object();
+  for (const Override& override_ : manifest.overrides) {
+    json["overrides"][override_.path] = FormatNode(*override_.value, 10000);
+  }
+  std::vector<fs::path> files;  // each once
+  std::set<fs::path> seen;
+  for (const fs::path& file : manifest.inputs) {
+    if (seen.insert(fs::absolute(file).lexically_normal()).second) files.push_back(file);
+  }
+  const std::vector<fs::path> names = MakeCopyNames(files);
+  json["inputs"] = nlohmann::ordered_json::array();
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    const std::string content = ReadTextFile(files[i], std::numeric_limits<std::size_t>::max());
+    const fs::path copy = fs::path("inputs") / names[i];
+    results->WriteText(copy, content);
+    json["inputs"].push_back(
+        {{"file", files[i].string()}, {"copy", copy.string()}, {"sha256", CalcSha256(content)}});
+  }
+  json["solver"] = nlohmann::ordered_json::object();
+  for (const auto& [name, value] : manifest.solver) json["solver"][name] = value;
+  results->WriteJson(kManifest, json);
+}
+
+}  // namespace kingpin::io
