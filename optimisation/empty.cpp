@@ -1,1 +1,0 @@
-int KingpinOptimisationIsEmpty() { return 0; }
