@@ -1,0 +1,65 @@
+#include "optimisation/report/case_facts.h"
+#include "optimisation/report/html.h"
+#include "optimisation/report/number_format.h"
+#include "optimisation/report/scatter_chart.h"
+#include "optimisation/report/sections.h"
+#include "optimisation/report/table.h"
+
+namespace kingpin::report {
+
+void AddFurther(const Further& further, Page& page) {
+  std::string charts;
+  for (const ParetoFront& front : further.pareto) charts += DrawParetoChart(front, 540.0);
+  if (further.rows.empty() && charts.empty() && further.text.empty()) return;
+  page.AddHeading(2, "Further than the paper");
+  page.AddParagraph(further.text);
+  if (!further.rows.empty()) {
+    Table table;
+    std::vector<Cell> names = {TextCell("Set"), TextCell("Free")};
+    std::vector<Cell> columns = {TextCell(""), TextCell("")};
+    const auto add_group = [&](const char* name, int span) {
+      Cell cell = HtmlCell(name, "group c");
+      cell.span = span;
+      names.push_back(cell);
+    };
+    add_group("Kickback index <i>I</i><sub>V</sub>", 4);
+    for (const char* text : {"start", "paper's design", "reached", "reached / paper's"}) {
+      columns.push_back(TextCell(text, columns.size() == 2 ? "n group" : "n"));
+    }
+    if (!further.ratio_symbols.empty()) {
+      add_group("Ratio to the start", static_cast<int>(further.ratio_symbols.size()));
+      for (size_t i = 0; i < further.ratio_symbols.size(); ++i) {
+        columns.push_back(HtmlCell(SymbolHtml(further.ratio_symbols[i]), i == 0 ? "n group" : "n"));
+      }
+    }
+    add_group("Price", 1);
+    columns.push_back(TextCell("road feel, ratio", "n group"));
+    names.push_back(TextCell("Remark"));
+    columns.push_back(TextCell(""));
+    table.AddHeader(names);
+    table.AddHeader(columns);
+    for (const FurtherRow& r : further.rows) {
+      std::vector<Cell> row = {TextCell(r.name, "b"),
+                               TextCell(r.freedom),
+                               NumberCell(r.objective_start),
+                               NumberCell(r.objective_paper),
+                               NumberCell(r.objective),
+                               RatioCell(r.objective / r.objective_paper, Preference::kLower)};
+      row[2].css += " group";
+      row[4].css += " b";
+      for (size_t i = 0; i < further.ratio_symbols.size(); ++i) {
+        row.push_back(RatioCell(GetValue(r.ratios, i), Preference::kLower));
+        if (i == 0) row.back().css += " group";
+      }
+      row.push_back(RatioCell(r.road_feel_ratio, Preference::kHigher));
+      row.back().css += " group";
+      row.push_back(TextCell(r.note, "muted"));
+      table.AddRow(row);
+    }
+    page.Add(table.MakeHtml());
+  }
+  if (!charts.empty()) page.Add("<div class=\"charts\">" + charts + "</div>\n");
+  for (const ParetoFront& front : further.pareto) page.AddParagraph(front.note);
+}
+
+}  // namespace kingpin::report
