@@ -136,14 +136,14 @@ class CubicSpline {
   /// C2, second derivative zero at both ends (and outside). `count` nodes, 0 or 2...kMaxNodes, x
   /// strictly increasing.
   static CubicSpline MakeNatural(int count, const double* x, const S* f) {
-    S slope[kMaxNodes];
+    S slope[kMaxNodes] = {};
     if (count > 0) CalcNaturalSlopes(count, x, f, slope);
     return CubicSpline(count, x, f, slope);
   }
 
   /// C1, monotone wherever the nodes are, no overshoot.
   static CubicSpline MakeMonotone(int count, const double* x, const S* f) {
-    S slope[kMaxNodes];
+    S slope[kMaxNodes] = {};
     if (count > 0) CalcMonotoneSlopes(count, x, f, slope);
     return CubicSpline(count, x, f, slope);
   }

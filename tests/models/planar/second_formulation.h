@@ -127,11 +127,16 @@ class Model {
     return TwistEnergy({q[4] - p_.gear_ratio * q[3], kStep}).imag() / kStep;
   }
 
+  /// What the valve measures: the twist times c_k, with or without a stop beside it.
+  double BarTorque(const Vector5<double>& q) const {
+    return p_.column_stiffness * (q[4] - p_.gear_ratio * q[3]);
+  }
+
   double AssistForce(double torque) const {
     return std::copysign(assist_.Value(std::abs(torque)).real(), torque);
   }
 
-  /// M q̈ without assistance, aligning state and rack friction.
+  /// M q̈ without assistance, lagged aligning torque and rack friction.
   Vector5<double> Forces(const Vector5<double>& q, const Vector5<double>& v, double road_force,
                          double moment) const {
     Vector5<double> force{};
@@ -178,7 +183,7 @@ class Model {
   Vector5<double> Accelerations(const Vector5<double>& q, const Vector5<double>& v,
                                 double road_force, double moment = 0.0) const {
     auto force = Forces(q, v, road_force, moment);
-    force[3] += AssistForce(ElasticTorque(q));
+    force[3] += AssistForce(BarTorque(q));
     if (p_.friction_law == FrictionLaw::kSmoothed) {
       force[3] -= FrictionLimit(q, v) * v[3] / std::hypot(v[3], p_.friction_speed);
     }
