@@ -1,10 +1,13 @@
 #include "apps/input_kinds.h"
 
+#include "models/parameters/input_kinds.h"
+
 namespace kingpin::apps {
 
 // One line for each folder that has input files of its own.
 io::InputKinds MakeInputKinds() {
   io::InputKinds kinds;
+  parameters::AddInputKinds(&kinds);
   return kinds;
 }
 

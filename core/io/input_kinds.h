@@ -25,16 +25,18 @@ struct InputKind {
 class InputKinds {
  public:
   /// `check` looks at the whole object once it was read, beyond what the schema checks (building
-  /// the model from it, say), and throws InputError. Throws std::logic_error for a name that is
-  /// taken.
+  /// the model from it, say), and throws InputError. `derive` gives what follows from it, for the
+  /// record. Throws std::logic_error for a name that is taken.
   template <class T>
-  void Add(const Schema<T>& schema, std::function<void(const T&)> check = {}) {
+  void Add(const Schema<T>& schema, std::function<void(const T&)> check = {},
+           std::function<DerivedValues(const T&)> derive = {}) {
     AddKind(InputKind{schema.name(), schema.core(),
-                      [schema, check = std::move(check)](const std::filesystem::path& path,
-                                                         const ReadOptions& options) {
+                      [schema, check = std::move(check), derive = std::move(derive)](
+                          const std::filesystem::path& path, const ReadOptions& options) {
                         InputRecord record;
                         const T object = ReadFile(schema, path, options, &record);
                         if (check) check(object);
+                        if (derive) record.derived = derive(object);
                         return record;
                       }});
   }

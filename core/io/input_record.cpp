@@ -64,6 +64,19 @@ std::string FormatRecordAsText(const InputRecord& record) {
     if (!origin.note.empty()) text += " (" + origin.note + ")";
     text += '\n';
   }
+  if (record.derived.empty()) return text;
+  std::size_t name_width = 7;
+  for (const DerivedValue& value : record.derived) {
+    name_width = std::max(name_width, value.name.size());
+  }
+  text += fmt::format("\n{:<{}}  {:<20}  formula [source]\n", "derived", name_width, "value");
+  for (const DerivedValue& value : record.derived) {
+    const std::string number = value.unit == "-"
+                                   ? fmt::format("{:.6g}", value.value)
+                                   : fmt::format("{:.6g} {}", value.value, value.unit);
+    text += fmt::format("{:<{}}  {:<20}  {} [{}]\n", value.name, name_width, number, value.formula,
+                        value.source);
+  }
   return text;
 }
 
@@ -96,6 +109,16 @@ std::string FormatRecordAsJson(const InputRecord& record) {
     if (!value.origin.note.empty()) origin["note"] = value.origin.note;
     entry["origin"] = std::move(origin);
     json["values"].push_back(std::move(entry));
+  }
+  if (!record.derived.empty()) json["derived"] = nlohmann::ordered_json::array();
+  for (const DerivedValue& value : record.derived) {
+    nlohmann::ordered_json entry;
+    entry["path"] = value.name;
+    entry["value"] = value.value;
+    entry["unit"] = value.unit;
+    entry["formula"] = value.formula;
+    entry["source"] = value.source;
+    json["derived"].push_back(std::move(entry));
   }
   return FormatJson(json);
 }

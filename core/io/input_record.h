@@ -5,6 +5,8 @@
 #include <string_view>
 #include <vector>
 
+#include "core/io/derived_value.h"
+
 /// What was understood of an input, value by value: the echo of `kingpin check`, the parameter
 /// table of a report, and the list of files for a run's manifest.
 namespace kingpin::io {
@@ -38,16 +40,19 @@ struct InputRecord {
   std::string kind;                          ///< the schema's name, e.g. `car`
   std::vector<ValueRecord> values;           ///< in the schema's order
   std::vector<std::filesystem::path> files;  ///< every file read, the named one first
+  DerivedValues derived;                     ///< what follows from the values, if the kind says
 
   /// The record of one value, or null.
   const ValueRecord* Find(std::string_view path) const;
 };
 
-/// A table for people: path, value with unit, as written, origin, source and certainty.
+/// A table for people: path, value with unit, as written, origin, source and certainty; then the
+/// derived values with their formulas.
 std::string FormatRecordAsText(const InputRecord& record);
 
 /// The same for machines: `{"kind": ..., "files": [...], "values": [{"path", "value", "unit",
-/// "text", "origin": {"kind", "file", "line", "source", "certainty", "note"}}, ...]}`.
+/// "text", "origin": {"kind", "file", "line", "source", "certainty", "note"}}, ...], "derived":
+/// [{"path", "value", "unit", "formula", "source"}, ...]}`.
 std::string FormatRecordAsJson(const InputRecord& record);
 
 }  // namespace kingpin::io

@@ -1,19 +1,11 @@
 #pragma once
 
-#include <string>
-#include <vector>
+#include "core/io/derived_value.h"
 
 namespace kingpin::parameters {
 
-/// A number that follows from the parameters, with what a reader needs to recompute it.
-struct DerivedQuantity {
-  std::string name;     ///< path, e.g. `front.kingpin_inclination`
-  double value = 0.0;   ///< in the unit shown
-  std::string unit;     ///< e.g. `deg`; `-` when there is none
-  std::string formula;  ///< as text
-  std::string source;   ///< where the formula comes from
-};
-
-using DerivedQuantities = std::vector<DerivedQuantity>;
+/// A number that follows from the parameters; `kingpin check` and reports print them.
+using DerivedQuantity = io::DerivedValue;
+using DerivedQuantities = io::DerivedValues;
 
 }  // namespace kingpin::parameters

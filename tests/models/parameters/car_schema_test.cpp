@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "core/io/input_record.h"
+#include "models/parameters/input_kinds.h"
 #include "tests/models/parameters/c_segment.h"
 
 namespace kingpin::parameters {
@@ -56,6 +57,29 @@ TEST(CarSchema, ValuesArriveInSi) {
   EXPECT_NEAR(car.steering.hydraulic.pump_flow, 8e-3 / 60.0, 1e-18);
   EXPECT_NEAR(car.steering.electric.torsion_bar_stiffness, 2.25 * 180.0 / std::acos(-1.0), 1e-10);
   EXPECT_NEAR(car.steering.electric.speed_factor.x[1], 35.0 / 3.6, 1e-14);
+}
+
+TEST(CarSchema, CheckEchoesValuesAndWhatFollowsFromThem) {
+  io::InputKinds kinds;
+  AddInputKinds(&kinds);
+  const io::InputRecord record = kinds.Detect(CarFile()).read(CarFile(), {});
+  const std::string text = io::FormatRecordAsText(record);
+  EXPECT_THAT(text, HasSubstr("front_suspension.arm_rear.y.stiffness"));
+  EXPECT_THAT(text, HasSubstr("[P] Szczotka 2011, table 1"));
+  EXPECT_THAT(text, HasSubstr("1399.7 kg"));
+  EXPECT_THAT(text, HasSubstr("m g b/(2 L) [statics]"));
+  EXPECT_THAT(io::FormatRecordAsJson(record), HasSubstr("\"formula\": \"m g b/(2 L)\""));
+}
+
+TEST(CarSchema, EverySubsystemFileCanBeCheckedByItself) {
+  io::InputKinds kinds;
+  AddInputKinds(&kinds);
+  const std::filesystem::path folder = std::filesystem::path(CarFile()).parent_path();
+  for (const char* name :
+       {"body", "front_suspension", "rear_suspension", "steering", "driveline", "tyres"}) {
+    const std::filesystem::path file = folder / (std::string(name) + ".yaml");
+    EXPECT_FALSE(kinds.Detect(file).read(file, {}).values.empty()) << name;
+  }
 }
 
 TEST(CarSchema, ARightSidePointIsAnError) {
