@@ -15,6 +15,7 @@ int main(int argc, char** argv) {
   apps::CommonOptions options;
   options.command_line.assign(argv, argv + argc);
   apps::AddVerbCheck(app, options);
+  apps::AddVerbMetrics(app, options);
   apps::AddVerbSchema(app, options);
   try {
     app.parse(argc, argv);
