@@ -62,13 +62,11 @@ class CsvParser {
       }
       if (fields.size() != table_.columns.size()) {
         Fail(line_, {}, fmt::format("{} fields", fields.size()),
-             fmt::format("{} as in the first row", table_.columns.size()),
-             fields.size() == 1 && fields[0].find(';') != std::string::npos
-                 ? "separate fields by ',' and not by ';'"
-                 : "");
+             fmt::format("{} as in the first row", table_.columns.size()));
       }
+      // Units may be `1`, so one field that is no number tells.
       if (rows == 2 && table_.has_names &&
-          std::none_of(fields.begin(), fields.end(), LooksLikeNumber)) {
+          !std::all_of(fields.begin(), fields.end(), LooksLikeNumber)) {
         ReadUnits(fields);
         continue;
       }
@@ -144,6 +142,10 @@ class CsvParser {
   }
 
   void MakeColumns(const std::vector<std::string>& fields) {
+    if (fields.size() == 1 && fields[0].find_first_of(";\t") != std::string::npos) {
+      Fail(line_, {}, fmt::format("'{}'", fields[0]), "fields separated by commas",
+           "separate fields by ',', and write numbers with a decimal point");
+    }
     table_.has_names = std::none_of(fields.begin(), fields.end(), LooksLikeNumber);
     std::set<std::string> names;
     for (std::size_t i = 0; i < fields.size(); ++i) {

@@ -117,7 +117,7 @@ std::vector<fs::path> MakeCopyNames(const std::vector<fs::path>& files) {
 
 ResultDirectory::ResultDirectory(fs::path target) : target_(std::move(target)) {
   if (!target_.has_filename()) target_ = target_.parent_path();  // a trailing slash
-  if (target_.empty() || target_.filename() == "." || target_.filename() == "..") {
+  if (!target_.has_filename() || target_.filename() == "." || target_.filename() == "..") {
     throw InputError(InputProblem{.file = "command line",
                                   .key = "-o",
                                   .found = fmt::format("'{}'", target_.string()),

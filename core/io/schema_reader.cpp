@@ -29,6 +29,18 @@ std::vector<std::string> NamesOf(const std::vector<FieldSpec::Option>& options) 
   return names;
 }
 
+struct Noun {
+  const char* singular;
+  const char* plural;
+};
+constexpr Noun kEntries = {"entry", "entries"};
+constexpr Noun kNumbers = {"number", "numbers"};
+constexpr Noun kRows = {"row", "rows"};
+
+std::string Count(std::size_t count, const Noun& noun) {
+  return fmt::format("{} {}", count, count == 1 ? noun.singular : noun.plural);
+}
+
 // What a mapping says about all values below it.
 struct Provenance {
   std::string source;
@@ -271,15 +283,15 @@ class Reader {
     if (node == nullptr) {
       if (field.default_node) {
         node = field.default_node.get();
-      } else if (field.required) {
-        Fail(mapping, path, "nothing", Describe(field));
       } else if (field.kind == FieldKind::kSection &&
-                 (!field.stays_absent || HasOverrideBelow(path))) {
+                 (HasOverrideBelow(path) || (!field.required && !field.stays_absent))) {
         Node empty;
         empty.file = mapping.file;
         empty.line = mapping.line;
         ReadMapping(*field.schema, empty, path, field.child(object, ""), provenance, false);
         return;
+      } else if (field.required) {
+        Fail(mapping, path, "nothing", Describe(field));
       } else {
         return;
       }
@@ -360,7 +372,7 @@ class Reader {
   void ReadList(const FieldSpec& field, const Node& node, const std::string& path, void* object,
                 const Provenance& provenance) {
     if (!node.is_sequence()) Fail(node, path, DescribeNode(node), Describe(field));
-    CheckCount(field, node, node.items.size(), path, "entries");
+    CheckCount(field, node, node.items.size(), path, kEntries);
     for (std::size_t i = 0; i < node.items.size(); ++i) {
       const std::string item_path = fmt::format("{}[{}]", path, i);
       const Node* replaced = FindOverride(item_path);
@@ -372,7 +384,7 @@ class Reader {
   void ReadMap(const FieldSpec& field, const Node& node, const std::string& path, void* object,
                const Provenance& provenance) {
     if (!node.is_mapping()) Fail(node, path, DescribeNode(node), Describe(field));
-    CheckCount(field, node, node.entries.size(), path, "entries");
+    CheckCount(field, node, node.entries.size(), path, kEntries);
     for (const Node::Entry& entry : node.entries) {
       const std::string item_path = Below(path, entry.key);
       const Node* replaced = FindOverride(item_path);
@@ -472,9 +484,9 @@ class Reader {
         break;
       case FieldKind::kTexts:
         if (!node.is_sequence()) Fail(node, path, DescribeNode(node), Describe(field));
-        CheckCount(field, node, node.items.size(), path, "entries");
-        for (const NodePointer& item : node.items) {
-          value.texts.push_back(ReadText(field, *item, path));
+        CheckCount(field, node, node.items.size(), path, kEntries);
+        for (std::size_t i = 0; i < node.items.size(); ++i) {
+          value.texts.push_back(ReadText(field, *node.items[i], fmt::format("{}[{}]", path, i)));
         }
         record->value = fmt::format("[{}]", Join(value.texts));
         break;
@@ -557,7 +569,8 @@ class Reader {
 
   std::string ReadText(const FieldSpec& field, const Node& node, const std::string& path) {
     if (!node.is_scalar() || node.text.empty()) {
-      Fail(node, path, DescribeNode(node), Describe(field));
+      Fail(node, path, DescribeNode(node),
+           field.kind == FieldKind::kTexts && field.options.empty() ? "a text" : Describe(field));
     }
     const std::vector<std::string> names = NamesOf(field.options);
     if (!names.empty() && std::find(names.begin(), names.end(), node.text) == names.end()) {
@@ -572,7 +585,7 @@ class Reader {
                       FieldValue* value) {
     const Node& node = *written.value;
     if (!node.is_sequence()) Fail(node, path, DescribeNode(node), Describe(field));
-    CheckCount(field, node, node.items.size(), path, "numbers");
+    CheckCount(field, node, node.items.size(), path, kNumbers);
     for (std::size_t i = 0; i < node.items.size(); ++i) {
       const Node& item = *node.items[i];
       const std::string item_path = fmt::format("{}[{}]", path, i);
@@ -611,7 +624,7 @@ class Reader {
       }
     }
     if (!rows->is_sequence()) Fail(*rows, path, DescribeNode(*rows), Describe(field));
-    CheckCount(field, *rows, rows->items.size(), path, "rows");
+    CheckCount(field, *rows, rows->items.size(), path, kRows);
     for (std::size_t i = 0; i < rows->items.size(); ++i) {
       const Node& row = *rows->items[i];
       const std::string row_path = fmt::format("{}[{}]", path, i);
@@ -677,7 +690,7 @@ class Reader {
       Fail(node, path, fmt::format("'{}': {}", file.string(), error.problem().found),
            error.problem().expected, error.problem().suggestion);
     }
-    CheckCount(field, node, value->columns[0].size(), path, "rows");
+    CheckCount(field, node, value->columns[0].size(), path, kRows);
   }
 
   void CheckRow(const FieldSpec& field, const std::vector<double>& cells, const FieldValue& value,
@@ -700,17 +713,17 @@ class Reader {
   }
 
   void CheckCount(const FieldSpec& field, const Node& node, std::size_t count,
-                  const std::string& path, const char* what) {
+                  const std::string& path, const Noun& what) {
     if (count >= field.min_count && count <= field.max_count) return;
     std::string expected;
     if (field.min_count == field.max_count) {
-      expected = fmt::format("{} {}", field.min_count, what);
+      expected = Count(field.min_count, what);
     } else if (count < field.min_count) {
-      expected = fmt::format("at least {} {}", field.min_count, what);
+      expected = "at least " + Count(field.min_count, what);
     } else {
-      expected = fmt::format("at most {} {}", field.max_count, what);
+      expected = "at most " + Count(field.max_count, what);
     }
-    Fail(node, path, fmt::format("{} {}", count, what), expected);
+    Fail(node, path, Count(count, what), expected);
   }
 
   void CheckRange(const FieldSpec& field, const Node& node, double value, const Unit& unit,

@@ -235,7 +235,7 @@ std::optional<Unit> FindSymbol(std::string_view name) {
 }
 
 std::vector<std::string> MakeSymbolNames() {
-  std::vector<std::string> names = {"kg"};
+  std::vector<std::string> names = {"kg", "km/h"};
   for (const Symbol& symbol : kSymbols) names.emplace_back(symbol.name);
   for (const char* name : {"mm", "cm", "km", "ms", "us", "kN", "MN", "kNm", "kPa", "MPa", "GPa",
                            "kHz", "kW", "mrad"}) {

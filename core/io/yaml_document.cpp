@@ -163,6 +163,19 @@ class NodeBuilder : public YAML::EventHandler {
       return;
     }
     level.has_key = false;
+    if (node->is_null() && node->line != level.key_line) {
+      // The parser notices that nothing stands there only at the next token.
+      auto moved = std::make_shared<Node>(*node);
+      moved->line = level.key_line;
+      PlaceValue(&level, std::move(moved), line);
+      return;
+    }
+    PlaceValue(&level, node, line);
+  }
+
+  void PlaceValue(Level* level_pointer, const NodePointer& node, int line) {
+    Level& level = *level_pointer;
+    Node& parent = *level.node;
     if (level.key == "<<") {
       level.merged.emplace_back(node, line);
       return;
@@ -172,12 +185,25 @@ class NodeBuilder : public YAML::EventHandler {
       throw InputError(
           InputProblem{.file = *file_,
                        .line = level.key_line,
-                       .key = level.key,
+                       .key = MakePath(),
                        .found = "the key a second time",
                        .expected = "each key once",
                        .suggestion = fmt::format("it stands in line {} already", known->second)});
     }
     parent.entries.push_back(Node::Entry{level.key, level.key_line, node});
+  }
+
+  // Of the key that was read last, e.g. `load_cases[1].speed`.
+  std::string MakePath() const {
+    std::string path;
+    for (const Level& level : open_) {
+      if (level.node->is_mapping()) {
+        path += (path.empty() ? "" : ".") + level.key;
+      } else {
+        path += fmt::format("[{}]", level.node->items.size());
+      }
+    }
+    return path;
   }
 
   // Merge keys: what the mapping says itself wins over what is merged, earlier merges over later.
@@ -234,6 +260,18 @@ void AppendNode(const Node& node, std::size_t longest, std::string* text) {
   }
 }
 
+// Whether line `last` (counted from 0) or one before it is indented by a tab.
+bool HasTabBefore(std::string_view text, int last) {
+  for (int line = 0; line <= last && !text.empty(); ++line) {
+    const std::size_t indented = text.find_first_not_of(' ');
+    if (indented != std::string_view::npos && text[indented] == '\t') return true;
+    const std::size_t end = text.find('\n');
+    if (end == std::string_view::npos) return false;
+    text.remove_prefix(end + 1);
+  }
+  return false;
+}
+
 }  // namespace
 
 const Node* Node::Find(std::string_view key) const {
@@ -276,9 +314,13 @@ std::string FormatNode(const Node& node, std::size_t longest) {
 }
 
 NodePointer ParseYaml(std::string_view text, const std::string& name) {
-  const auto fail = [&name](int line, std::string found, std::string expected) {
-    throw InputError(InputProblem{
-        .file = name, .line = line, .found = std::move(found), .expected = std::move(expected)});
+  const auto fail = [&name](int line, std::string found, std::string expected,
+                            std::string suggestion = {}) {
+    throw InputError(InputProblem{.file = name,
+                                  .line = line,
+                                  .found = std::move(found),
+                                  .expected = std::move(expected),
+                                  .suggestion = std::move(suggestion)});
   };
   if (text.size() > kLargestInputFile) {
     fail(0, fmt::format("{} bytes", text.size()),
@@ -304,7 +346,8 @@ NodePointer ParseYaml(std::string_view text, const std::string& name) {
       if (root) return root;
     }
   } catch (const YAML::Exception& error) {
-    fail(LineOf(error.mark), "a mistake in the YAML (" + error.msg + ")", "YAML 1.2");
+    fail(LineOf(error.mark), "a mistake in the YAML (" + error.msg + ")", "YAML 1.2",
+         HasTabBefore(text, error.mark.line) ? "indent by blanks, not by tabs" : "");
   } catch (const InputError&) {
     throw;
   } catch (const std::exception& error) {  // the library lets some through on malformed text

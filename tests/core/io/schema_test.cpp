@@ -2,75 +2,16 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/core/io/example_schema.h"
 
 namespace kingpin::io {
 namespace {
 
-enum class Assistance { kNone, kHydraulic, kElectric };
-
-struct Rack {
-  double mass = 0.0;
-  double travel = 0.0;
-  std::optional<double> preload;
-};
-
-struct LoadCase {
-  double speed = 0.0;
-  double weight = 0.0;
-};
-
-struct Steering {
-  Rack rack;
-  std::optional<Rack> second_rack;
-  Assistance assistance = Assistance::kNone;
-  std::array<double, 3> outer_joint{};
-  CurveTable boost;
-  double motor_inertia = 0.0;
-  int teeth = 0;
-  bool locked = false;
-  std::vector<LoadCase> load_cases;
-  NamedList<LoadCase> named;
-};
-
-Schema<Rack> MakeRackSchema() {
-  Schema<Rack> s("rack", "the rack");
-  s.Quantity("mass", &Rack::mass, "kg", "mass of the rack").Positive();
-  s.Quantity("travel", &Rack::travel, "m", "from stop to stop").Positive().Default("150 mm");
-  s.Quantity("preload", &Rack::preload, "N", "yoke force").NonNegative().Optional();
-  return s;
-}
-
-Schema<Steering> MakeSchema() {
-  Schema<LoadCase> load_case("load_case", "one excitation");
-  load_case.Quantity("speed", &LoadCase::speed, "m/s", "of the car").Positive();
-  load_case.Quantity("weight", &LoadCase::weight, "1", "in the sum").Default(1.0);
-  Schema<Steering> s("steering", "the steering of one car");
-  s.Include("rack", &Steering::rack, MakeRackSchema(), "the rack");
-  s.Section("second_rack", &Steering::second_rack, MakeRackSchema(), "another one").Optional();
-  s.Choice("assistance", &Steering::assistance,
-           {{"none", Assistance::kNone, "no power assistance"},
-            {"hydraulic", Assistance::kHydraulic, "boost valve"},
-            {"electric", Assistance::kElectric, "motor on the rack"}},
-           "power assistance");
-  s.Point("outer_joint", &Steering::outer_joint, "m", "tie rod's outer ball joint");
-  s.Curve("boost", &Steering::boost, {"torque", "N m"}, {"force", "N"}, "boost curve")
-      .Increasing()
-      .Monotone()
-      .OnlyIf("assistance", {"hydraulic"});
-  s.Quantity("motor_inertia", &Steering::motor_inertia, "kg m^2", "rotor")
-      .Positive()
-      .OnlyIf("assistance", {"electric"});
-  s.Integer("teeth", &Steering::teeth, "of the pinion").Min(3).Default(8);
-  s.Boolean("locked", &Steering::locked, "whether it is locked").Default(false);
-  s.List("load_cases", &Steering::load_cases, load_case, "excitations").Optional();
-  s.Map("named", &Steering::named, load_case, "excitations by name").Optional();
-  s.Check([](const Steering& steering, Check& check) {
-    if (steering.rack.travel > 0.3) {
-      check.Fail("rack.travel", "a long rack", "at most 0.3 m");
-    }
-  });
-  return s;
-}
+using example::Assistance;
+using example::MakeSchema;
+using example::Steering;
 
 constexpr const char* kGood = R"(kind: steering
 source: a workshop manual
@@ -122,6 +63,91 @@ TEST(Schema, OriginTravelsWithEachValue) {
   EXPECT_EQ(record.Find("outer_joint")->origin.source, "a workshop manual");
   EXPECT_EQ(record.Find("load_cases[1].speed")->origin.kind, ValueOrigin::Kind::kCommandLine);
   EXPECT_EQ(record.Find("load_cases[1].speed")->origin.source, "");
+}
+
+// The echo holds everything that was understood: fed back as overrides over an empty input, the
+// struct comes out the same.
+TEST(Schema, TheEchoReadsBackAsTheSameInput) {
+  InputRecord record;
+  const Steering steering = ReadText(MakeSchema(), kGood, "a.yaml", {}, &record);
+  ReadOptions options;
+  for (const ValueRecord& value : record.values) {
+    if (value.path.starts_with("load_cases") || value.path.starts_with("named")) continue;
+    const bool has_unit = value.numbers.size() == 1 && !value.value.starts_with('[');
+    const std::string text = has_unit ? FormatQuantity(value.numbers[0], value.unit) : value.value;
+    options.overrides.push_back(ParseOverride(value.path + "=" + text));
+  }
+  options.overrides.push_back(ParseOverride("load_cases=[{speed: 35 km/h}, {speed: 1}]"));
+  options.overrides.push_back(ParseOverride("load_cases[1].speed=10 m/s"));
+  options.overrides.push_back(ParseOverride("load_cases[1].weight=0.5"));
+  options.overrides.push_back(ParseOverride("named={slow: {speed: 5}}"));
+  InputRecord again;
+  const Steering read = ReadText(MakeSchema(), "kind: steering\n", "b.yaml", options, &again);
+  ASSERT_EQ(again.values.size(), record.values.size());
+  for (std::size_t i = 0; i < record.values.size(); ++i) {
+    EXPECT_EQ(again.values[i].path, record.values[i].path);
+    EXPECT_EQ(again.values[i].value, record.values[i].value) << record.values[i].path;
+    EXPECT_EQ(again.values[i].numbers, record.values[i].numbers) << record.values[i].path;
+  }
+  EXPECT_EQ(read.boost.y, steering.boost.y);
+  EXPECT_EQ(read.outer_joint, steering.outer_joint);
+}
+
+TEST(Schema, TheEchoIsPrintedWithUnitAndOrigin) {
+  InputRecord record;
+  ReadText(MakeSchema(),
+           "kind: steering\nrack: {mass: {value: 300 g, source: weighed, certainty: D}}\n",
+           "a.yaml", {}, &record);
+  const std::string text = FormatRecordAsText(record);
+  EXPECT_THAT(text, testing::ContainsRegex("rack.mass +0.3 kg +300 g +a.yaml:2 .D. weighed\n"));
+  EXPECT_THAT(text, testing::ContainsRegex("rack.travel +0.15 m +150 mm +default\n"));
+  const auto json = nlohmann::json::parse(FormatRecordAsJson(record));
+  EXPECT_EQ(json["kind"], "steering");
+  EXPECT_EQ(json["values"][0]["value"], 0.3);
+  EXPECT_EQ(json["values"][0]["unit"], "kg");
+  EXPECT_EQ(json["values"][0]["text"], "300 g");
+  EXPECT_EQ(json["values"][0]["origin"]["line"], 2);
+  EXPECT_EQ(json["values"][0]["origin"]["source"], "weighed");
+  EXPECT_EQ(json["values"][1]["origin"]["kind"], "default");
+}
+
+TEST(Schema, TheLastOverrideOfAPathWins) {
+  ReadOptions options;
+  options.overrides.push_back(ParseOverride("rack.mass=1 kg"));
+  options.overrides.push_back(ParseOverride("rack.mass=2 kg"));
+  EXPECT_EQ(ReadText(MakeSchema(), "kind: steering\n", "a.yaml", options).rack.mass, 2.0);
+}
+
+TEST(Schema, OverridesFromAFileKeepTheirPlace) {
+  const NodePointer study = ParseYaml("changes:\n  rack.mass: 3 kg\n", "study.yaml");
+  ReadOptions options;
+  options.overrides = MakeOverrides(*study->Find("changes"));
+  InputRecord record;
+  ReadText(MakeSchema(), "kind: steering\nrack: {mass: 1}\n", "a.yaml", options, &record);
+  EXPECT_EQ(FormatOrigin(record.Find("rack.mass")->origin), "study.yaml:2");
+}
+
+TEST(Schema, DeclarationsThatMakeNoSenseAreRefused) {
+  struct Thing {
+    double a = 0.0;
+  };
+  Schema<Thing> s("thing", "a thing");
+  s.Quantity("a", &Thing::a, "kg", "first");
+  EXPECT_THROW(s.Quantity("a", &Thing::a, "kg", "again"), std::logic_error);
+  EXPECT_THROW(s.Quantity("kind", &Thing::a, "kg", "reserved"), std::logic_error);
+  EXPECT_THROW(s.Quantity("b", &Thing::a, "mm", "not SI"), std::logic_error);
+  Schema<Thing> wrong("thing", "a thing");
+  wrong.Quantity("a", &Thing::a, "kg", "first").Default("3 m");
+  EXPECT_THROW(ReadText(wrong, "kind: thing\n", "a.yaml"), std::logic_error);
+}
+
+TEST(Schema, MarkdownListsEveryKeyWithUnitRangeAndDefault) {
+  const std::string text = FormatSchemaAsMarkdown(*MakeSchema().core());
+  EXPECT_THAT(text, testing::HasSubstr("| `rack.mass` | quantity [kg], more than 0 kg | required | "
+                                       "mass of the rack |"));
+  EXPECT_THAT(text,
+              testing::HasSubstr("| `rack.travel` | quantity [m], more than 0 m | `150 mm` |"));
+  EXPECT_THAT(text, testing::HasSubstr("| `load_cases[i].speed` | "));
 }
 
 }  // namespace
