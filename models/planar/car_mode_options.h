@@ -34,6 +34,10 @@ struct CarModeOptions {
 
   double speed = 35.0 / 3.6;  ///< of the car: electric assistance, tyre relaxation [m/s]
   Assistance assistance = Assistance::kHydraulic;
+  /// Let the assistance follow torque with its lag. Off by default: a plain lag without the phase
+  /// compensation that real controllers and valves have makes the loop unstable with the shipped
+  /// car's gains (assist_stability.h; docs/theory/car-reduction.md).
+  bool assist_lag = false;
   HandsOnRim hands = HandsOnRim::kFree;
   Aligning aligning = Aligning::kLagged;
   double aligning_frequency = 15.0;  ///< [Hz]

@@ -21,6 +21,9 @@ const io::Schema<CarModeOptions>& CarModeSchema() {
                "motor on the pinion with its inertia, friction and torque loop"}},
              "power assistance")
         .Default("hydraulic");
+    s.Boolean("assist_lag", &O::assist_lag,
+              "the assistance follows torque with its lag, uncompensated; check stability")
+        .Default(false);
     s.Choice("hands", &O::hands,
              {{"free", O::HandsOnRim::kFree, "nobody holds the wheel"},
               {"light", O::HandsOnRim::kLight, "a light grip"},

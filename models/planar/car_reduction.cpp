@@ -10,6 +10,7 @@
 #include "core/io/error.h"
 #include "models/parameters/car_mass.h"
 #include "models/parameters/front_geometry.h"
+#include "models/planar/assist_stability.h"
 #include "models/planar/front_compliance.h"
 
 namespace kingpin::planar {
@@ -27,6 +28,8 @@ constexpr double kDegree = kPi / 180.0;
 class Recorder {
  public:
   explicit Recorder(DerivedQuantities* record) : record_(record) {}
+
+  bool wanted() const { return record_ != nullptr; }
 
   double operator()(std::string name, double value, std::string unit, std::string formula,
                     std::string source) const {
@@ -99,15 +102,6 @@ Curve<double> MakeAssistCurve(const parameters::Table& table, double scale, doub
     curve.f[last + static_cast<std::size_t>(k)] = scale * limit;
   }
   return curve;
-}
-
-double LargestSlope(const Curve<double>& curve) {
-  double slope = 0.0;
-  for (int i = 1; i < curve.count; ++i) {
-    const auto k = static_cast<std::size_t>(i);
-    slope = std::max(slope, (curve.f[k] - curve.f[k - 1]) / (curve.x[k] - curve.x[k - 1]));
-  }
-  return slope;
 }
 
 double Series(double a, double b) { return a * b / (a + b); }
@@ -386,8 +380,10 @@ void Builder::BuildAssistance() {
                                  "pi (D^2 - d^2)/4", "geometry; p_A of the paper");
       p.assist_force = MakeAssistCurve(assist.pressure, area, assist.pressure_limit,
                                        "steering.hydraulic.pressure");
-      p.assist_lag = assist.lag > 0.0 ? AssistLag::kFirstOrder : AssistLag::kNone;
-      p.assist_time = assist.lag;
+      if (options.assist_lag && assist.lag > 0.0) {
+        p.assist_lag = AssistLag::kFirstOrder;
+        p.assist_time = assist.lag;
+      }
       record("assist.pump_speed", assist.pump_flow / area, "m/s", "Q/p_A",
              "rack speed above which the pump would not follow; not modelled");
       break;
@@ -405,17 +401,27 @@ void Builder::BuildAssistance() {
       const double tau = assist.controller_delay;
       const double first = 2.0 * assist.loop_damping / w + tau;
       const double second = 1.0 / (w * w) + 2.0 * assist.loop_damping * tau / w + 0.5 * tau * tau;
-      p.assist_lag = AssistLag::kSecondOrder;
-      p.assist_frequency = record("assist.loop_frequency", 1.0 / std::sqrt(second), "rad/s",
-                                  "(1/w^2 + 2 zeta tau/w + tau^2/2)^(-1/2)",
-                                  "torque loop and controller delay, inverse expanded to s^2");
-      p.assist_damping = record("assist.loop_damping", 0.5 * first * p.assist_frequency, "-",
-                                "(2 zeta/w + tau) w'/2", "as above");
+      const double frequency = record("assist.loop_frequency", 1.0 / std::sqrt(second), "rad/s",
+                                      "(1/w^2 + 2 zeta tau/w + tau^2/2)^(-1/2)",
+                                      "torque loop and controller delay, inverse expanded to s^2");
+      const double damping = record("assist.loop_damping", 0.5 * first * frequency, "-",
+                                    "(2 zeta/w + tau) w'/2", "as above");
+      if (options.assist_lag) {
+        p.assist_lag = AssistLag::kSecondOrder;
+        p.assist_frequency = frequency;
+        p.assist_damping = damping;
+      }
       break;
     }
   }
-  record("assist.loop_stiffness", LargestSlope(p.assist_force) * p.column_stiffness * p.gear_ratio,
-         "N/m", "max(dF_A/dM) c_k i_U", "rack stiffness the assistance mimics at its steepest");
+  const double slope = record("assist.steepest_slope", CalcSteepestChord(p.assist_force), "N/(N m)",
+                              "largest chord between nodes", "assistance curve");
+  record("assist.loop_stiffness", slope * p.column_stiffness * p.gear_ratio, "N/m",
+         "max(dF_A/dM) c_k i_U", "rack stiffness the assistance mimics at its steepest");
+  if (!record.wanted()) return;
+  record("assist.stable_slope", CalcLargestStableSlope(p), "N/(N m)",
+         "largest dF_A/dM at which no small motion grows",
+         "eigenvalues at rest (assist_stability.h); infinite: none up to 1e6");
 }
 
 }  // namespace
