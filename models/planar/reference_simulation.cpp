@@ -64,8 +64,8 @@ class Integration {
       : options_(options),
         excitation_(excitation),
         samples_(CalcSampleIntervals(options.duration, options.sample_interval, 1.0)),
-        whole_(MakeModel(parameters)),
-        active_(whole_) {
+        model_(MakeModel(parameters)),
+        constants_(PromoteConstants<Scalar>(model_.constants)) {
     CheckTolerance("relative_tolerance", options.relative_tolerance);
     CheckTolerance("absolute_tolerance", options.absolute_tolerance);
     result_.statistics.method = options.method;
@@ -97,7 +97,7 @@ class Integration {
 
   int CalcRate(double t, const double* y, double* rate) const {
     Dynamics<double> d{};
-    CalcDynamics<double>(active_.structure, active_.constants, MakeState<double>(y),
+    CalcDynamics<double>(model_.structure, model_.constants, MakeState<double>(y),
                          excitation_.CalcForce(t), mode_.slip, d);
     for (int i = 0; i < kCoordinates; ++i) {
       rate[i] = y[kCoordinates + i];
@@ -120,7 +120,7 @@ class Integration {
     }
     for (int i = 0; i < kExtraStates; ++i) x.extra[i].d[kExtra + i] = 1.0;
     Dynamics<Scalar> d{};
-    CalcDynamics<Scalar>(active_.structure, active_dual_, x, Scalar(excitation_.CalcForce(t)),
+    CalcDynamics<Scalar>(model_.structure, constants_, x, Scalar(excitation_.CalcForce(t)),
                          Scalar(mode_.slip), d);
     for (int j = 0; j < kStates; ++j) {
       sunrealtype* column = SUNDenseMatrix_Column(jacobian, j);
@@ -137,14 +137,14 @@ class Integration {
   // Switching functions, positive as long as the present mode holds; 1 where unused.
   void CalcSwitches(double t, const double* y, double* g) const {
     std::fill_n(g, static_cast<int>(kSwitchCount), 1.0);
-    const Structure& st = whole_.structure;
-    const Constants<double>& k = whole_.constants;
+    const Structure& st = model_.structure;
+    const Constants<double>& k = model_.constants;
     if (mode_.coulomb) {
       if (mode_.slip != 0.0 && mode_.normal_sign == 0) {
         g[kFriction] = mode_.slip * y[kRackSpeed];
       } else {
         const Dynamics<double> d =
-            CalcForces(active_, MakeState<double>(y), excitation_.CalcForce(t), mode_.slip);
+            CalcForces(model_, MakeState<double>(y), excitation_.CalcForce(t), mode_.slip);
         g[kFriction] = mode_.slip != 0.0 ? mode_.slip * y[kRackSpeed]
                                          : d.friction_limit - std::abs(d.friction_force);
         if (mode_.normal_sign != 0)
@@ -222,27 +222,23 @@ class Integration {
     Check(CVodeSetLinearSolver(memory, solver_.get(), matrix_.get()), "CVodeSetLinearSolver");
     Check(CVodeSetJacFn(memory, &JacobianCallback), "CVodeSetJacFn");
     Check(CVodeSetMaxErrTestFails(memory, 30), "CVodeSetMaxErrTestFails");
-    if (whole_.structure.has_events()) {
-      Check(CVodeRootInit(memory, kSwitchCount, &RootCallback), "CVodeRootInit");
-      Check(CVodeSetNoInactiveRootWarn(memory), "CVodeSetNoInactiveRootWarn");
-    }
   }
 
   double CalcElongation(const double* y) const {
-    const Constants<double>& k = whole_.constants;
+    const Constants<double>& k = model_.constants;
     const double s = std::sin(y[2]);
     const double half = std::sin(0.5 * y[2]);
     const double c1 = -2.0 * half * half;  // cos ψ − 1 without cancellation
     const double mx = y[0] + (c1 * k.outer_x - s * k.outer_y);
     const double my =
-        y[1] + (s * k.outer_x + c1 * k.outer_y) - (whole_.structure.two_way ? y[3] : 0.0);
+        y[1] + (s * k.outer_x + c1 * k.outer_y) - (model_.structure.two_way ? y[3] : 0.0);
     const double growth = mx * (2.0 * k.rod_x + mx) + my * (2.0 * k.rod_y + my);
     return growth / (std::sqrt(k.rod_length_squared + growth) + k.rod_length);
   }
 
   void SetInitialMode() {
-    const Structure& st = whole_.structure;
-    const Constants<double>& k = whole_.constants;
+    const Structure& st = model_.structure;
+    const Constants<double>& k = model_.constants;
     mode_.coulomb = st.friction_law == FrictionLaw::kCoulomb;
     if (st.has_stops) {
       const double twist = y_[4] - k.gear_ratio * y_[3];
@@ -252,30 +248,17 @@ class Integration {
       const double elongation = CalcElongation(y_.data());
       mode_.play = elongation > k.rod_half_play ? 1 : elongation < -k.rod_half_play ? -1 : 0;
     }
-    Freeze();
     if (mode_.coulomb) {
-      mode_.slip = CalcSlip(active_, MakeState<double>(y_.data()), excitation_.CalcForce(0.0));
+      mode_.slip = CalcSlip(model_, MakeState<double>(y_.data()), excitation_.CalcForce(0.0));
     }
     WatchNormalForce();
   }
 
-  // The model of the present branch: free play becomes a rod of another length, or none.
-  void Freeze() {
-    active_ = whole_;
-    if (whole_.structure.has_free_play) {
-      active_.structure.has_free_play = false;
-      Constants<double>& k = active_.constants;
-      if (mode_.play == 0) k.rod_stiffness = k.rod_damping = 0.0;
-      k.rod_length += mode_.play * k.rod_half_play;
-    }
-    active_dual_ = PromoteConstants<Scalar>(active_.constants);
-  }
-
   void WatchNormalForce() {
     mode_.normal_sign = 0;
-    if (!mode_.coulomb || !(whole_.constants.friction_coefficient > 0.0)) return;
+    if (!mode_.coulomb || !(model_.constants.friction_coefficient > 0.0)) return;
     const Dynamics<double> d =
-        CalcForces(active_, MakeState<double>(y_.data()), excitation_.CalcForce(time_), mode_.slip);
+        CalcForces(model_, MakeState<double>(y_.data()), excitation_.CalcForce(time_), mode_.slip);
     const double normal = d.rod_force * d.rod_direction_x;
     // At rest there is no side to be on: wait until there is a force.
     mode_.normal_sign = normal > 0.0 ? 1 : normal < 0.0 ? -1 : 0;
@@ -362,7 +345,7 @@ class Integration {
 
   void UpdateFriction() {
     const double before = mode_.slip;
-    mode_.slip = CalcSlip(active_, MakeState<double>(y_.data()), excitation_.CalcForce(time_));
+    mode_.slip = CalcSlip(model_, MakeState<double>(y_.data()), excitation_.CalcForce(time_));
     if (mode_.slip == 0.0 && before != 0.0) AddEvent(EventKind::kStick, 0);
     if (mode_.slip != 0.0 && mode_.slip != before) {
       AddEvent(EventKind::kSlip, static_cast<int>(mode_.slip));
@@ -378,7 +361,7 @@ class Integration {
         } else {
           // Beyond the limit by construction of the event, be it by one rounding.
           const Dynamics<double> d =
-              CalcForces(active_, MakeState<double>(y_.data()), excitation_.CalcForce(time_), 0.0);
+              CalcForces(model_, MakeState<double>(y_.data()), excitation_.CalcForce(time_), 0.0);
           mode_.slip = d.friction_force < 0.0 ? 1.0 : -1.0;
           AddEvent(EventKind::kSlip, static_cast<int>(mode_.slip));
         }
@@ -397,7 +380,6 @@ class Integration {
         const bool contact = mode_.play != side;
         mode_.play = contact ? side : 0;
         AddEvent(contact ? EventKind::kPlayContact : EventKind::kPlayRelease, side);
-        Freeze();
         break;
       }
       case kNormal:
@@ -416,7 +398,7 @@ class Integration {
     void* memory = memory_.get();
     Restart();
     Check(CVodeSetStopTime(memory, end), "CVodeSetStopTime");
-    const bool events = whole_.structure.has_events();
+    const bool events = model_.structure.has_events();
     while (time_ < end) {
       double reached = time_;
       const int flag = CVode(memory, end, vector_.get(), &reached, CV_ONE_STEP);
@@ -424,18 +406,6 @@ class Integration {
       double event_time = reached;
       int which = -1;
       const bool found = events && FindEvent(time_, reached, &event_time, &which);
-      if (events) {
-        if (flag == CV_ROOT_RETURN) last_root_ = reached;
-        if (found) {
-          ReferenceStatistics& s = result_.statistics;
-          const double apart = std::abs(last_root_ - event_time);
-          if (apart < 1e-6) {
-            s.root_disagreement = std::max(s.root_disagreement, apart);
-          } else {
-            ++s.roots_lost;
-          }
-        }
-      }
       const double until = found ? event_time : reached;
       SampleTo(until);
       StateArray y{};
@@ -477,7 +447,7 @@ class Integration {
     const State<double> x = MakeState<double>(y);
     const double force = excitation_.CalcForce(t);
     Dynamics<double> d{};
-    CalcDynamics<double>(active_.structure, active_.constants, x, force, mode_.slip, d);
+    CalcDynamics<double>(model_.structure, model_.constants, x, force, mode_.slip, d);
     History& h = result_.history;
     h.time.push_back(t);
     for (int i = 0; i < kCoordinates; ++i) {
@@ -485,15 +455,15 @@ class Integration {
       h.v[i].push_back(x.v[i]);
       h.a[i].push_back(d.a[i]);
     }
-    h.rim_acceleration.push_back(d.a[4] * whole_.constants.rim_radius);
+    h.rim_acceleration.push_back(d.a[4] * model_.constants.rim_radius);
     h.torsion_torque.push_back(d.torsion_torque);
     h.tie_rod_force.push_back(d.rod_force);
     h.rack_force.push_back(d.rack_rod_force);
     h.friction_force.push_back(d.friction_force);
     h.assist_force.push_back(d.assist_force);
     h.road_force.push_back(force);
-    h.kinetic_energy.push_back(CalcKineticEnergy(whole_, x));
-    h.potential_energy.push_back(CalcPotentialEnergy(whole_, x));
+    h.kinetic_energy.push_back(CalcKineticEnergy(model_, x));
+    h.potential_energy.push_back(CalcPotentialEnergy(model_, x));
     h.dissipated_energy.push_back(y[kDissipated]);
     h.supplied_energy.push_back(y[kSupplied]);
   }
@@ -505,10 +475,6 @@ class Integration {
   static int JacobianCallback(sunrealtype t, N_Vector y, N_Vector, SUNMatrix jacobian, void* self,
                               N_Vector, N_Vector, N_Vector) {
     static_cast<const Integration*>(self)->CalcJacobian(t, N_VGetArrayPointer(y), jacobian);
-    return 0;
-  }
-  static int RootCallback(sunrealtype t, N_Vector y, sunrealtype* g, void* self) {
-    static_cast<const Integration*>(self)->CalcSwitches(t, N_VGetArrayPointer(y), g);
     return 0;
   }
   static void ErrorCallback(int, const char*, const char*, char* message, void* self) {
@@ -533,13 +499,11 @@ class Integration {
   ReferenceOptions options_;
   const Excitation& excitation_;
   int samples_;
-  Model<double> whole_;   // as given
-  Model<double> active_;  // of the present branch
-  Constants<Scalar> active_dual_;
+  Model<double> model_;
+  Constants<Scalar> constants_;  // of the model, for derivatives with respect to the state
   Mode mode_;
   StateArray y_{};
   double time_ = 0.0;
-  double last_root_ = -1.0;  // reported by CVODE
   int next_sample_ = 0;
   ReferenceRun result_;
   std::string message_;

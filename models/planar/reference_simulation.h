@@ -20,14 +20,14 @@
 ///   else slides on in the direction of the push. Sticking ends when |reaction| exceeds the limit.
 ///   While it sticks, speed and acceleration of the rack are exactly zero
 /// - torsion-bar stops: twist crosses ±θ_s
-/// - free play: elongation crosses ±s/2; each piece integrates its own branch only, so that the
-///   damper's jump at contact never falls into a step
+/// - free play: elongation crosses ±s/2
 /// - the sign of the normal force |F_R e_x|, where the limit has a kink
 ///
-/// CVODE's root finder (Illinois, on its dense output) watches the switching functions. As version
-/// 6.4.1 can lose roots, each step is also searched here, by sign at five points of the dense
-/// output and bisection; the earlier crossing counts, and the statistics say how far the two
-/// disagreed.
+/// Each step is searched for the earliest crossing by sign at five points of its dense output and
+/// by bisection to neighbouring numbers; the integration restarts there. CVODE's own root finder is
+/// not used: version 6.4.1 looks at the ends of steps only, and gives up ("root found at and very
+/// near t") where an element switches right after a restart, as a rattling joint does. Where it did
+/// not give up, the two agreed to 1e-13 s.
 ///
 /// The Jacobian is exact (`math::Dual`). One SUNDIALS context per run: runs may go in parallel.
 namespace kingpin::planar {
@@ -77,11 +77,9 @@ struct ReferenceStatistics {
   long jacobians = 0;
   long error_test_failures = 0;
   long nonlinear_failures = 0;
-  long restarts = 0;               ///< cuts: kinks and events
-  std::vector<Event> events;       ///< in the order of time
-  double sticking_time = 0.0;      ///< [s]
-  double root_disagreement = 0.0;  ///< largest |CVODE's root − ours| [s]
-  long roots_lost = 0;             ///< crossings that CVODE's root finder did not report
+  long restarts = 0;           ///< cuts: kinks and events
+  std::vector<Event> events;   ///< in the order of time
+  double sticking_time = 0.0;  ///< [s]
 };
 
 struct ReferenceRun {

@@ -146,7 +146,6 @@ TEST(ReferenceSimulation, CoulombOscillatorTurnsAndStopsWhereItShould) {
   // What friction took is force times path: 2 (7.3 + 5.3 + 3.3 + 1.3 − 4) ... = Σ paths L.
   const double path = (7.3 + 2 * 5.3 + 2 * 3.3 + 2 * 1.3 + -0.7) * p.friction_constant / stiffness;
   EXPECT_NEAR(run.history.dissipated_energy.back(), path * p.friction_constant, 1e-9);
-  EXPECT_EQ(run.statistics.roots_lost, 0);
 }
 
 TEST(ReferenceSimulation, DrivenRackBreaksAwayAndStopsWhereItShould) {
@@ -194,7 +193,6 @@ TEST(ReferenceSimulation, DrivenRackBreaksAwayAndStopsWhereItShould) {
   for (std::size_t i = 0; i < run.history.size() && run.history.time[i] < t1; ++i) {
     EXPECT_EQ(run.history.q[3][i], 0.0);
   }
-  EXPECT_LT(run.statistics.root_disagreement, 1e-9);
 }
 
 TEST(ReferenceSimulation, TorsionBarMeetsItsStopOnTime) {
@@ -315,8 +313,6 @@ TEST(ReferenceSimulation, EnergyLedgerClosesWithFrictionStopsAndFreePlay) {
       // Friction never pushes, and never exceeds its limit.
       EXPECT_LE(run.history.friction_force[i] * run.history.v[3][i], 0.0);
     }
-    EXPECT_EQ(run.statistics.roots_lost, 0);
-    EXPECT_LT(run.statistics.root_disagreement, 1e-9);
   }
 }
 
@@ -331,7 +327,6 @@ TEST(ReferenceSimulation, CoulombFrictionAgreesWithRungeKutta) {
     // Runge-Kutta at 1e-5 s is off by 6e-8 of the maximum: about a hundred events per run.
     EXPECT_LT(CalcWorstDistance(run.history, expected), 2e-7) << set.name;
     EXPECT_GT(run.statistics.events.size(), 50u);
-    EXPECT_EQ(run.statistics.roots_lost, 0);
     for (std::size_t i = 0; i < run.history.size(); ++i) {
       if (run.history.v[3][i] == 0.0) {
         EXPECT_EQ(run.history.a[3][i], 0.0);
@@ -348,6 +343,33 @@ TEST(ReferenceSimulation, CoulombFrictionAgreesWithFineRungeKutta) {
   options.step = 2.5e-6;
   const ReferenceRun run = SimulateReference(p, excitation);
   EXPECT_LT(CalcWorstDistance(run.history, Simulate(p, excitation, options)), 1e-8);
+}
+
+TEST(ReferenceSimulation, StopsAndFreePlayAgreeWithRungeKutta) {
+  Pulse pulse;
+  pulse.amplitude = 3000.0;
+  pulse.start = 0.1;
+  pulse.duration = 0.02;
+  const Excitation excitation({pulse});
+  SimulationOptions options;
+  options.step = 5e-6;
+  options.duration = 0.3;
+  ReferenceOptions reference;
+  reference.duration = 0.3;
+  auto p = PlanarCar();
+  p.stop_angle = 0.01;
+  p.stop_stiffness = 800.0;
+  EXPECT_LT(CalcWorstDistance(SimulateReference(p, excitation, reference).history,
+                              Simulate(p, excitation, options)),
+            1e-8);
+  // The rod's damper jumps at the end of the free play, and at once breaks the rack away from
+  // friction. Stages of a Runge-Kutta step that ends there stand on both sides of the jump: first
+  // order in the step, 3e-4 of the maximum here, half of it at half the step.
+  p = WithFriction(p);
+  p.rod_free_play = 1e-4;
+  EXPECT_LT(CalcWorstDistance(SimulateReference(p, excitation, reference).history,
+                              Simulate(p, excitation, options)),
+            2e-3);
 }
 
 TEST(ReferenceSimulation, RackHoldsBelowBreakaway) {
