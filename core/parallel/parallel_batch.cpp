@@ -1,6 +1,7 @@
 #include "core/parallel/parallel_batch.h"
 
 #include <algorithm>
+#include <utility>
 
 #include <sched.h>
 
@@ -10,6 +11,11 @@ namespace {
 // About ten microseconds; longer than the gap between two batches of a search, far shorter than
 // anything a user would notice as a busy core.
 constexpr int kSpins = 4000;
+
+constexpr std::uint64_t kOpen = std::uint64_t{1} << 16;
+constexpr std::uint64_t kInside = kOpen - 1;
+
+std::uint32_t GetNumber(std::uint64_t round) { return static_cast<std::uint32_t>(round >> 32); }
 
 void Pause() {
 #if defined(__x86_64__)
@@ -36,7 +42,6 @@ ParallelBatch::~ParallelBatch() {
   {
     const std::lock_guard lock(mutex_);
     stop_ = true;
-    generation_.fetch_add(1);
   }
   wake_.notify_all();
 }
@@ -51,14 +56,15 @@ void ParallelBatch::Run(std::size_t blocks, const Task& task) {
   blocks_ = blocks;
   error_ = nullptr;
   next_.store(0);
-  busy_.store(static_cast<int>(workers_.size()));
   {
     const std::lock_guard lock(mutex_);
-    generation_.fetch_add(1);
+    const std::uint64_t number = GetNumber(round_.load()) + std::uint64_t{1};
+    round_.store((number << 32) | kOpen);
   }
   wake_.notify_all();
   TakeBlocks(0);
-  for (int spin = 0; busy_.load() > 0; ++spin) {
+  round_.fetch_and(~kOpen);
+  for (int spin = 0; (round_.load() & kInside) != 0; ++spin) {
     if (spin < kSpins) {
       Pause();
     } else {
@@ -69,18 +75,24 @@ void ParallelBatch::Run(std::size_t blocks, const Task& task) {
 }
 
 void ParallelBatch::Work(int worker) {
-  unsigned seen = 0;
+  std::uint32_t seen = 0;
+  const auto has_news = [&] { return stop_.load() || GetNumber(round_.load()) != seen; };
   while (true) {
-    for (int spin = 0; spin < kSpins && generation_.load() == seen; ++spin) Pause();
-    if (generation_.load() == seen) {
+    for (int spin = 0; spin < kSpins && !has_news(); ++spin) Pause();
+    if (!has_news()) {
       std::unique_lock lock(mutex_);
-      wake_.wait(lock, [&] { return generation_.load() != seen; });
+      wake_.wait(lock, has_news);
     }
     if (stop_.load()) return;
-    // Run() waits for every worker before it starts the next generation, so none is ever missed.
-    ++seen;
+    std::uint64_t round = round_.load();
+    bool inside = false;
+    while ((round & kOpen) != 0 && !inside) {
+      inside = round_.compare_exchange_weak(round, round + 1);
+    }
+    seen = GetNumber(round);
+    if (!inside) continue;  // too late: everything has been taken
     TakeBlocks(worker);
-    busy_.fetch_sub(1);
+    round_.fetch_sub(1);
   }
 }
 

@@ -3,6 +3,7 @@
 #include <atomic>
 #include <condition_variable>
 #include <cstddef>
+#include <cstdint>
 #include <exception>
 #include <functional>
 #include <mutex>
@@ -18,7 +19,9 @@ namespace kingpin {
 /// bit with any number of threads. Each worker has a number in [0, threads), so that a caller can
 /// keep one workspace per worker and need no lock. The calling thread is worker 0.
 ///
-/// The hand-over is quick: a worker looks for new work for some microseconds before it sleeps.
+/// The hand-over is quick: a worker looks for new work for some microseconds before it sleeps, and
+/// one that the operating system does not let run in time is not waited for: the others do its
+/// blocks.
 class ParallelBatch {
  public:
   using Task = std::function<void(std::size_t block, int worker)>;
@@ -44,8 +47,9 @@ class ParallelBatch {
   std::vector<std::jthread> workers_;
   std::mutex mutex_;
   std::condition_variable wake_;
-  std::atomic<unsigned> generation_{0};
-  std::atomic<int> busy_{0};
+  // One word, so that a worker can join a round only while it is open: number of the round (upper
+  // 32 bits), open flag, number of workers in it (lower 16 bits).
+  std::atomic<std::uint64_t> round_{0};
   std::atomic<bool> stop_{false};
   std::atomic<std::size_t> next_{0};
   std::size_t blocks_ = 0;
