@@ -30,11 +30,10 @@ Json MakeNumber(const FieldSpec& field, const char* type) {
   return number;
 }
 
+// Understood alike by ECMA 262, which JSON Schema asks for, and by POSIX.
 Json MakeQuantityText() {
   return {{"type", "string"},
-          {"pattern",
-           "^\\s*[+-]?([0-9]+\\.?[0-9]*|\\.[0-9]+)([eE][+-]?[0-9]+)?\\s*[^0-9.,\\s].*$|"
-           "^\\s*[+-]?([0-9]+\\.?[0-9]*|\\.[0-9]+)([eE][+-]?[0-9]+)?\\s*$"}};
+          {"pattern", "^ *[+-]?([0-9]+\\.?[0-9]*|\\.[0-9]+)([eE][+-]?[0-9]+)? *([^0-9., ].*)?$"}};
 }
 
 void LimitCount(const FieldSpec& field, Json* list) {

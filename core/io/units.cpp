@@ -234,13 +234,11 @@ std::optional<Unit> FindSymbol(std::string_view name) {
   return std::nullopt;
 }
 
+// For suggestions; of two that are equally near, the first.
 std::vector<std::string> MakeSymbolNames() {
-  std::vector<std::string> names = {"kg", "km/h"};
+  std::vector<std::string> names = {"kg", "km/h", "mm",  "cm",  "km",  "ms",  "us", "kN",
+                                    "MN", "kNm",  "kPa", "MPa", "GPa", "kHz", "kW", "mrad"};
   for (const Symbol& symbol : kSymbols) names.emplace_back(symbol.name);
-  for (const char* name : {"mm", "cm", "km", "ms", "us", "kN", "MN", "kNm", "kPa", "MPa", "GPa",
-                           "kHz", "kW", "mrad"}) {
-    names.emplace_back(name);
-  }
   return names;
 }
 

@@ -1,10 +1,10 @@
 #pragma once
 
-#include <regex>
 #include <set>
 #include <string>
 
 #include <nlohmann/json.hpp>
+#include <regex.h>
 
 #include "core/io/error.h"
 #include "core/io/units.h"
@@ -46,6 +46,14 @@ inline Json MakeJson(const Node& node) {
     }
   }
   return nullptr;
+}
+
+inline bool Matches(const std::string& pattern, const std::string& text) {
+  regex_t expression;
+  if (::regcomp(&expression, pattern.c_str(), REG_EXTENDED | REG_NOSUB) != 0) return false;
+  const bool matches = ::regexec(&expression, text.c_str(), 0, nullptr, 0) == 0;
+  ::regfree(&expression);
+  return matches;
 }
 
 inline bool HasType(const Json& value, const std::string& type) {
@@ -122,8 +130,7 @@ inline std::string FindSchemaViolation(const Json& schema, const Json& value,
     }
   }
   if (value.is_string() && schema.contains("pattern") &&
-      !std::regex_search(value.get<std::string>(),
-                         std::regex(schema["pattern"].get<std::string>()))) {
+      !Matches(schema["pattern"].get<std::string>(), value.get<std::string>())) {
     return path + ": does not match the pattern";
   }
   if (value.is_array()) {
