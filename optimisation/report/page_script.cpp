@@ -9,12 +9,18 @@ std::string_view GetPageScript() {
   const root = document.documentElement;
   root.classList.add('js');
 
-  // Number as the report writes it.
-  function show(v) {
+  // A value read from the drawing, with no more digits than a tenth of a pixel carries.
+  function show(axis, pixel) {
+    const v = toValue(axis, pixel), a = Math.abs(v);
     if (!isFinite(v)) return '–';
-    const a = Math.abs(v);
-    const s = a !== 0 && (a >= 1e6 || a < 1e-4) ? a.toExponential(2) : String(+a.toPrecision(4));
-    return (v < 0 ? '−' : '') + s;
+    let s;
+    if (axis[4] || a >= 1e6) {
+      s = a >= 1e6 || a < 1e-4 ? a.toExponential(2) : String(+a.toPrecision(3));
+    } else {
+      const step = 0.1 * Math.abs((axis[3] - axis[2]) / (axis[1] - axis[0]));
+      s = a.toFixed(Math.min(12, Math.max(0, Math.floor(-Math.log10(step)))));
+    }
+    return (v < 0 && +s !== 0 ? '−' : '') + s;
   }
   function toValue(axis, pixel) {
     const share = (pixel - axis[0]) / (axis[1] - axis[0]);
@@ -58,7 +64,7 @@ std::string_view GetPageScript() {
       if (!lines) prepare();
       tip.textContent = '';
       const head = document.createElement('div');
-      head.textContent = (svg.dataset.xname || 'x') + ': ' + show(toValue(ax, px));
+      head.textContent = (svg.dataset.xname || 'x') + ': ' + show(ax, px);
       tip.appendChild(head);
       lines.forEach(function (line) {
         let best = null, distance = 4;
@@ -70,7 +76,7 @@ std::string_view GetPageScript() {
         const row = document.createElement('div'), swatch = document.createElement('i');
         swatch.style.background = line.colour;
         row.appendChild(swatch);
-        row.appendChild(document.createTextNode(line.name + ': ' + show(toValue(line.axis, best[1])) +
+        row.appendChild(document.createTextNode(line.name + ': ' + show(line.axis, best[1]) +
           (line.axis === ay && svg.dataset.yname ? ' ' + svg.dataset.yname : '')));
         tip.appendChild(row);
       });

@@ -83,8 +83,8 @@ dl{display:grid;grid-template-columns:minmax(140px,max-content) minmax(0,1fr);ga
 dt{font-weight:600}
 dd{margin:0}
 code{font:12px ui-monospace,"DejaVu Sans Mono",Menlo,Consolas,monospace;overflow-wrap:anywhere}
-@media (max-width:1120px){.layout{display:block}nav{position:static;max-height:none;border-right:0;border-bottom:1px solid var(--line);columns:3}main{padding:18px}}
-@media (max-width:760px){.charts,.charts.three{grid-template-columns:1fr}nav{columns:1}}
+@media screen and (max-width:1120px){.layout{display:block}nav{position:static;max-height:none;border-right:0;border-bottom:1px solid var(--line);columns:3}main{padding:18px}}
+@media screen and (max-width:760px){.charts,.charts.three{grid-template-columns:1fr}nav{columns:1}}
 @page{size:A4 landscape;margin:12mm 13mm}
 @media print{
 body{font-size:10pt}
@@ -97,6 +97,9 @@ h2,h3,h4,figcaption{break-after:avoid}
 figure,tr,.callout,svg{break-inside:avoid}
 thead{display:table-header-group}
 .scroll{overflow:visible}
+svg.top{max-height:118mm}
+.charts{gap:8px 18px;margin:4px 0 8px}
+h3{margin-top:16px}
 details{border:0;padding:0}
 details>summary{list-style:none}
 details::details-content{content-visibility:visible;block-size:auto}

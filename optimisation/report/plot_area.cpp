@@ -55,8 +55,18 @@ AxisMap::AxisMap(const Axis& axis, const std::vector<double>& values, double mar
     if (!(axis.include_zero && low == 0.0)) low -= pad;
     if (!(axis.include_zero && high == 0.0)) high += pad;
   }
-  if (std::isfinite(axis.min) && axis.min < high) low = axis.min;
-  if (std::isfinite(axis.max) && axis.max > low) high = axis.max;
+  const bool usable_min = std::isfinite(axis.min) && !(logarithmic_ && axis.min <= 0.0);
+  const bool usable_max = std::isfinite(axis.max) && !(logarithmic_ && axis.max <= 0.0);
+  if (usable_min && usable_max && axis.min < axis.max) {
+    low = axis.min;
+    high = axis.max;
+  } else if (usable_min && !usable_max) {
+    low = axis.min;
+    if (!(low < high)) high = logarithmic_ ? 10.0 * low : low + std::max(1.0, std::abs(low));
+  } else if (usable_max && !usable_min) {
+    high = axis.max;
+    if (!(low < high)) low = logarithmic_ ? high / 10.0 : high - std::max(1.0, std::abs(high));
+  }
   low_ = low;
   high_ = high;
   for (const double tick : axis.ticks) {

@@ -149,44 +149,90 @@ void AddModes(const std::vector<Measure>& measures, const Case& c, Page& page) {
   page.Add(table.MakeHtml());
 }
 
+namespace {
+
+/// y of a curve at x, straight between its points; NaN outside.
+double Interpolate(const Curve& curve, double x) {
+  const size_t n = std::min(curve.x.size(), curve.y.size());
+  for (size_t i = 1; i < n; ++i) {
+    if (x < curve.x[i - 1] || x > curve.x[i]) continue;
+    const double step = curve.x[i] - curve.x[i - 1];
+    const double share = step > 0.0 ? (x - curve.x[i - 1]) / step : 0.0;
+    return curve.y[i - 1] + share * (curve.y[i] - curve.y[i - 1]);
+  }
+  return kMissing;
+}
+
+Curve Minus(Curve curve, const Curve& reference) {
+  for (size_t i = 0; i < std::min(curve.x.size(), curve.y.size()); ++i) {
+    curve.y[i] -= Interpolate(reference, curve.x[i]);
+  }
+  return curve;
+}
+
+/// The chart of one characteristic: all designs, or all but the first as differences from it.
+LineChart MakeCharacteristicChart(const Case& c, size_t k, bool difference) {
+  const Characteristic& info = c.characteristics[k];
+  LineChart chart;
+  chart.title = difference ? info.name + ": change from " + c.designs[0].name : info.name;
+  chart.height = difference ? 240.0 : 330.0;
+  chart.legend = !difference;
+  chart.x = {.name = info.x_name, .unit = info.x_unit.text};
+  chart.y = {.name = difference ? "Change" : info.y_name, .unit = info.y_unit.text};
+  Curve reference;
+  if (difference) {
+    if (k >= c.designs[0].characteristics.size()) return chart;
+    reference = c.designs[0].characteristics[k].curve;
+    if (reference.x.empty()) return chart;
+  }
+  const auto shown = [&](const Curve& curve) {
+    Curve out = difference ? Minus(curve, reference) : curve;
+    return Curve{Scaled(out.x, info.x_unit), Scaled(out.y, info.y_unit)};
+  };
+  if (!info.lower.x.empty() && info.lower.x.size() == info.upper.x.size()) {
+    const Curve lower = shown(info.lower);
+    chart.bands.push_back({"bounds", lower.x, lower.y, shown(info.upper).y});
+  }
+  for (size_t d = difference ? 1 : 0; d < c.designs.size(); ++d) {
+    const Design& design = c.designs[d];
+    if (!design.plotted || k >= design.characteristics.size()) continue;
+    const CharacteristicCurve& curve = design.characteristics[k];
+    if (!curve.curve.x.empty()) {
+      Curve line = shown(curve.curve);
+      chart.series.push_back({.name = design.name,
+                              .x = std::move(line.x),
+                              .y = std::move(line.y),
+                              .style = StyleOf(d)});
+    }
+    if (!curve.nodes.x.empty()) {
+      Curve nodes = shown(curve.nodes);
+      chart.series.push_back({.name = "",
+                              .x = std::move(nodes.x),
+                              .y = std::move(nodes.y),
+                              .style = StyleOf(d),
+                              .line = false,
+                              .markers = true,
+                              .filled = false});
+    }
+  }
+  return chart;
+}
+
+}  // namespace
+
 void AddCharacteristics(const Case& c, Page& page) {
+  if (c.designs.empty()) return;
   std::string charts;
+  std::string changes;
   for (size_t k = 0; k < c.characteristics.size(); ++k) {
-    const Characteristic& info = c.characteristics[k];
-    LineChart chart;
-    chart.title = info.name;
-    chart.height = 330.0;
-    chart.x = {.name = info.x_name, .unit = info.x_unit.text};
-    chart.y = {.name = info.y_name, .unit = info.y_unit.text};
-    if (!info.lower.x.empty() && info.lower.x.size() == info.upper.x.size()) {
-      chart.bands.push_back({"bounds", Scaled(info.lower.x, info.x_unit),
-                             Scaled(info.lower.y, info.y_unit), Scaled(info.upper.y, info.y_unit)});
-    }
-    for (size_t d = 0; d < c.designs.size(); ++d) {
-      const Design& design = c.designs[d];
-      if (!design.plotted || k >= design.characteristics.size()) continue;
-      const CharacteristicCurve& curve = design.characteristics[k];
-      if (!curve.curve.x.empty()) {
-        chart.series.push_back({.name = design.name,
-                                .x = Scaled(curve.curve.x, info.x_unit),
-                                .y = Scaled(curve.curve.y, info.y_unit),
-                                .style = StyleOf(d)});
-      }
-      if (!curve.nodes.x.empty()) {
-        chart.series.push_back({.name = "",
-                                .x = Scaled(curve.nodes.x, info.x_unit),
-                                .y = Scaled(curve.nodes.y, info.y_unit),
-                                .style = StyleOf(d),
-                                .line = false,
-                                .markers = true,
-                                .filled = false});
-      }
-    }
+    const LineChart chart = MakeCharacteristicChart(c, k, false);
     if (!chart.series.empty()) charts += DrawLineChart(chart);
+    const LineChart change = MakeCharacteristicChart(c, k, true);
+    if (!change.series.empty()) changes += DrawLineChart(change);
   }
   if (charts.empty()) return;
   page.AddHeading(3, "Characteristics");
-  page.Add("<div class=\"charts\">" + charts + "</div>\n");
+  page.Add("<div class=\"charts\">" + charts + changes + "</div>\n");
 }
 
 }  // namespace kingpin::report

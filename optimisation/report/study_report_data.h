@@ -3,6 +3,7 @@
 #include <complex>
 #include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 /// What the report of a study shows, as plain values. The report computes ratios, percentages and
@@ -19,8 +20,12 @@ inline constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
 
 /// The shown number is `per_si` times the stored one: {"kN", 1e-3} for a force in newtons.
 struct DisplayUnit {
-  std::string text{};   ///< empty for a dimensionless number
-  double per_si = 1.0;  ///< 1 when the stored number already has this unit
+  // A constructor, so that nested braces in long lists do not set off a false warning of GCC 12.
+  DisplayUnit(std::string unit_text = {}, double shown_per_si = 1.0)
+      : text(std::move(unit_text)), per_si(shown_per_si) {}
+
+  std::string text;  ///< empty for a dimensionless number
+  double per_si;     ///< 1 when the stored number already has this unit
 };
 
 /// A line of a two-column list.
