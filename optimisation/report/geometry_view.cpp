@@ -311,6 +311,7 @@ std::string DrawGeometry(const std::vector<GeometryItem>& items) {
   const auto name = [&](const Point2& p, const char* text, double width) {
     if (IsDrawn(p)) svg += labels.Place(view.Map(p), text, width);
   };
+  svg += "<g class=\"names\">";
   name(last.kingpin, "K kingpin axis", 82);
   name(last.rod_outer, "tie-rod ball joint", 94);
   name(last.rod_inner, "rack end", 48);
@@ -318,6 +319,7 @@ std::string DrawGeometry(const std::vector<GeometryItem>& items) {
   name(last.longitudinal_support, "N longitudinal", 76);
   name(last.force_point, "road force", 58);
   name(last.centre_of_mass, "S", 9);
+  svg += "</g>";
 
   // Scale and axes.
   const double bar = view.scale * 0.1;

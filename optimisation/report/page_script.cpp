@@ -128,6 +128,8 @@ std::string_view GetPageScript() {
     slider.max = frames - 1;
     function draw() {
       const k = +slider.value, g = +gain.value;
+      // The names stand where the points rest.
+      svg.querySelector('.names').style.opacity = k > 0 ? 0.15 : 1;
       designs.forEach(function (d) {
         const m = d.m, s = data.scale * g;
         const dx = -m.y[k] * s, dy = -m.x[k] * s, psi = m.psi[k] * g, rack = -m.rack[k] * s;

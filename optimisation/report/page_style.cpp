@@ -101,7 +101,7 @@ svg.top{max-height:118mm}
 .charts{gap:8px 18px;margin:4px 0 8px}
 h3{margin-top:16px}
 details{border:0;padding:0}
-details>summary{list-style:none}
+details>summary{list-style:none;break-after:avoid}
 details::details-content{content-visibility:visible;block-size:auto}
 table{font-size:8.8pt}
 th,td{padding:2px 7px}
