@@ -99,6 +99,7 @@ std::string FormatTime(std::chrono::system_clock::time_point time) {
 // Names for copies: the paths below the folder that all of them share.
 std::vector<fs::path> MakeCopyNames(const std::vector<fs::path>& files) {
   std::vector<fs::path> absolute;
+  absolute.reserve(files.size());
   for (const fs::path& file : files) absolute.push_back(fs::absolute(file).lexically_normal());
   fs::path common = absolute.empty() ? fs::path() : absolute.front().parent_path();
   for (const fs::path& file : absolute) {
@@ -109,6 +110,7 @@ std::vector<fs::path> MakeCopyNames(const std::vector<fs::path>& files) {
     }
   }
   std::vector<fs::path> names;
+  names.reserve(absolute.size());
   for (const fs::path& file : absolute) names.push_back(file.lexically_relative(common));
   return names;
 }

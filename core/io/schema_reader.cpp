@@ -25,6 +25,7 @@ std::string Join(const std::vector<std::string>& names) {
 
 std::vector<std::string> NamesOf(const std::vector<FieldSpec::Option>& options) {
   std::vector<std::string> names;
+  names.reserve(options.size());
   for (const FieldSpec::Option& option : options) names.push_back(option.name);
   return names;
 }
@@ -828,7 +829,7 @@ class Reader {
   }
 
   static std::filesystem::path Resolve(const Node& node) {
-    const std::filesystem::path file(node.text);
+    std::filesystem::path file(node.text);
     if (file.is_absolute() || node.file_name() == "command line") return file;
     return (std::filesystem::path(node.file_name()).parent_path() / file).lexically_normal();
   }
