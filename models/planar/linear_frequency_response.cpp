@@ -37,6 +37,7 @@ std::vector<double> MakeFrequencyGrid(const Modes& modes, double lowest, double 
   const double decades = std::log10(highest / lowest);
   const int count = std::max(2, static_cast<int>(std::ceil(decades * per_decade)) + 1);
   std::vector<double> grid;
+  grid.reserve(static_cast<std::size_t>(count));
   for (int i = 0; i < count; ++i) {
     grid.push_back(lowest * std::pow(10.0, decades * i / (count - 1)));
   }

@@ -46,6 +46,7 @@ LinearModel MakeLinearModel(const Parameters<double>& parameters, const Operatin
   }
 
   std::vector<int> used;
+  used.reserve(kExtras + kExtraStates);
   for (int i = 0; i < kExtras; ++i) used.push_back(i);
   const auto use_extra = [&](ExtraState which, const char* name, const char* unit) {
     used.push_back(kExtras + which);

@@ -90,6 +90,7 @@ Modes CalcModes(const LinearModel& model) {
     throw io::RunError("modes: the eigenvalue iteration did not converge");
   }
   const auto& values = solver.eigenvalues();
+  const Eigen::Index mechanical = 2 * static_cast<Eigen::Index>(model.coordinates);
   Modes result;
   for (Eigen::Index i = 0; i < values.size(); ++i) {
     result.fastest_rate = std::max(result.fastest_rate, std::abs(values(i)));
@@ -130,7 +131,7 @@ Modes CalcModes(const LinearModel& model) {
     mode.dominant =
         static_cast<int>(std::max_element(energy.begin(), energy.end()) - energy.begin());
     const double coordinates = shape.head(model.coordinates).norm();
-    const double extras = shape.tail(model.a.rows() - 2 * model.coordinates).norm();
+    const double extras = shape.tail(model.a.rows() - mechanical).norm();
     if (total > 0.0) {
       const Complex turn = std::conj(shape(mode.dominant)) / std::abs(shape(mode.dominant));
       shape *= turn / std::sqrt(total);
@@ -145,8 +146,8 @@ Modes CalcModes(const LinearModel& model) {
     } else {
       mode.kind = ModeKind::kOverdamped;
       // An extra state's own pole: it moves that state by forces, the coordinates by its response.
-      if (model.a.rows() > 2 * model.coordinates && extras > 1e3 * coordinates) {
-        for (Eigen::Index k = 2 * model.coordinates; k < model.a.rows(); ++k) {
+      if (model.a.rows() > mechanical && extras > 1e3 * coordinates) {
+        for (Eigen::Index k = mechanical; k < model.a.rows(); ++k) {
           if (std::abs(value - model.a(k, k)) < 0.05 * std::abs(value)) mode.kind = ModeKind::kLag;
         }
       }
