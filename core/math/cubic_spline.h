@@ -41,18 +41,25 @@ struct SplineSegments {
   Segment segment[kMaxNodes - 1];
 };
 
-/// S(x). X may be S or, for S = double, a Dual.
-template <class S, int kMaxNodes, class X>
+/// S(x) and, if asked for, dS/dx. X may be S or, for S = double, a Dual.
+template <bool kWithSlope, class S, int kMaxNodes, class X>
 KINGPIN_INLINE X EvaluateSpline(const SplineShape& shape, const SplineSegments<S, kMaxNodes>& s,
-                                const X& x) {
+                                const X& x, X& slope) {
+  using math::Any;
+  using math::Min;
+  using math::Select;
   const X zero(0.0);
+  if constexpr (kWithSlope) slope = zero;
   if (shape.count == 0) return zero;
   X sum = zero + s.anchor_value;
   for (int k = shape.anchor;; ++k) {
     if (k == shape.count - 1) {
       const X t = x - s.last;
       const auto beyond = t >= zero;
-      if (Any(beyond)) sum = sum + Select(beyond, t, zero) * s.slope_right;
+      if (Any(beyond)) {
+        sum = sum + Select(beyond, t, zero) * s.slope_right;
+        if constexpr (kWithSlope) slope = Select(beyond, X(s.slope_right), slope);
+      }
       break;
     }
     const auto& p = s.segment[k];
@@ -62,12 +69,19 @@ KINGPIN_INLINE X EvaluateSpline(const SplineShape& shape, const SplineSegments<S
     t = Select(reached, t, zero);
     t = Min(t, X(p.width));
     sum = sum + t * (p.b + t * (p.c + t * p.d));
+    if constexpr (kWithSlope) {
+      // Overwritten by the next segment out when that one is reached.
+      slope = Select(reached, p.b + t * (2.0 * p.c + t * (3.0 * p.d)), slope);
+    }
   }
   for (int k = shape.anchor - 1;; --k) {
     if (k < 0) {
       const X t = s.first - x;
       const auto beyond = t > zero;
-      if (Any(beyond)) sum = sum - Select(beyond, t, zero) * s.slope_left;
+      if (Any(beyond)) {
+        sum = sum - Select(beyond, t, zero) * s.slope_left;
+        if constexpr (kWithSlope) slope = Select(beyond, X(s.slope_left), slope);
+      }
       break;
     }
     const auto& p = s.segment[k];
@@ -77,29 +91,26 @@ KINGPIN_INLINE X EvaluateSpline(const SplineShape& shape, const SplineSegments<S
     t = Select(reached, t, zero);
     t = Select(t <= X(p.width), t, X(p.width));
     sum = sum + t * (p.b + t * (p.c + t * p.d));
+    if constexpr (kWithSlope) {
+      slope = Select(reached, -(p.b + t * (2.0 * p.c + t * (3.0 * p.d))), slope);
+    }
   }
   return sum;
+}
+
+template <class S, int kMaxNodes, class X>
+KINGPIN_INLINE X EvaluateSpline(const SplineShape& shape, const SplineSegments<S, kMaxNodes>& s,
+                                const X& x) {
+  X unused;
+  return EvaluateSpline<false>(shape, s, x, unused);
 }
 
 /// dS/dx, of the right-hand piece at a node.
 template <class S, int kMaxNodes, class X>
 X EvaluateSplineSlope(const SplineShape& shape, const SplineSegments<S, kMaxNodes>& s, const X& x) {
-  const X zero(0.0);
-  if (shape.count == 0) return zero;
-  X slope = zero;
-  for (int k = 0; k < shape.count - 1; ++k) {
-    const auto& p = s.segment[k];
-    const bool right = k >= shape.anchor;
-    const X t = right ? x - p.start : p.start - x;
-    const X value = p.b + t * (X(2.0) * p.c + t * (X(3.0) * p.d));
-    if (right) {
-      slope = Select(t >= zero, Select(t < X(p.width), value, zero), slope);
-    } else {
-      slope = Select(t > zero, Select(t <= X(p.width), -value, slope), slope);
-    }
-  }
-  slope = Select(x >= X(s.last), X(s.slope_right), slope);
-  return Select(x < X(s.first), X(s.slope_left), slope);
+  X slope(0.0);
+  EvaluateSpline<true>(shape, s, x, slope);
+  return slope;
 }
 
 /// ∫ S from the anchor node to x.

@@ -122,15 +122,26 @@ struct Dual {
   KINGPIN_INLINE friend Dual Max(const Dual& a, const Dual& b) { return Select(a.v > b.v, a, b); }
   KINGPIN_INLINE friend Dual Abs(const Dual& a) { return Select(a.v < T(0.0), -a, a); }
   KINGPIN_INLINE friend Dual Sqrt(const Dual& a) {
-    const T root = math::Sqrt(a.v);
+    using math::Sqrt;
+    const T root = Sqrt(a.v);
     const T slope = T(0.5) / root;
     Dual r;
     r.v = root;
     for (int i = 0; i < N; ++i) r.d[i] = slope * a.d[i];
     return r;
   }
+  KINGPIN_INLINE friend Dual InverseSqrtNearOne(const Dual& a) {
+    using math::InverseSqrtNearOne;
+    const T y = InverseSqrtNearOne(a.v);
+    const T slope = T(-0.5) * (y * y) * y;
+    Dual r;
+    r.v = y;
+    for (int i = 0; i < N; ++i) r.d[i] = slope * a.d[i];
+    return r;
+  }
   KINGPIN_INLINE friend Dual Exp(const Dual& a) {
-    const T e = math::Exp(a.v);
+    using math::Exp;
+    const T e = Exp(a.v);
     Dual r;
     r.v = e;
     for (int i = 0; i < N; ++i) r.d[i] = e * a.d[i];
@@ -138,7 +149,8 @@ struct Dual {
   }
   KINGPIN_INLINE friend void SinCos(const Dual& a, Dual& s, Dual& c) {
     T sine, cosine;
-    math::SinCos(a.v, sine, cosine);
+    using math::SinCos;
+    SinCos(a.v, sine, cosine);
     Dual ds, dc;
     ds.v = sine;
     dc.v = cosine;

@@ -157,6 +157,19 @@ struct Pack {
       return Pack(Register(std::experimental::sqrt(a.r)));
     }
   }
+  /// A cubic start, y = 1 − u/2 + 3u²/8, and one step of fourth order: exact to rounding up to |u|
+  /// = 0.06 (the remainder r = 1 − (1 + u) y² is then 1.4e-4 and enters with r⁴ · 35/128 = 1e-16).
+  /// A lane beyond that gets the square root and the division.
+  KINGPIN_INLINE friend Pack InverseSqrtNearOne(const Pack& u) {
+    const Pack y = Pack(1.0) - u * (Pack(0.5) - Pack(0.375) * u);
+    const Pack r = Pack(1.0) - (y * y) * (Pack(1.0) + u);
+    Pack result = y + (y * r) * (Pack(0.5) + r * (Pack(0.375) + r * Pack(0.3125)));
+    const Mask outside = !(Abs(u) <= Pack(0.06));
+    if (__builtin_expect(Any(outside), 0)) {
+      result = Select(outside, Pack(1.0) / Sqrt(Pack(1.0) + u), result);
+    }
+    return result;
+  }
   KINGPIN_INLINE friend Pack Exp(const Pack& a) {
     Pack result;
     for (int i = 0; i < N; ++i) result.set(i, ::exp(a.get(i)));

@@ -9,6 +9,7 @@
 ///   Select(mask, a, b)   mask ? a : b, lane by lane; both sides are evaluated
 ///   Min, Max, Abs, Sqrt, Exp
 ///   SinCos(x, s, c)      s = sin x, c = cos x
+///   InverseSqrtNearOne(u) 1/√(1 + u), cheap for small u
 ///   Any(mask), All(mask) over the lanes
 ///   Value(x)             x without its derivatives
 ///
@@ -26,6 +27,7 @@ KINGPIN_INLINE double Min(double a, double b) { return a < b ? a : b; }
 KINGPIN_INLINE double Max(double a, double b) { return a > b ? a : b; }
 KINGPIN_INLINE double Abs(double x) { return __builtin_fabs(x); }
 KINGPIN_INLINE double Sqrt(double x) { return __builtin_sqrt(x); }
+KINGPIN_INLINE double InverseSqrtNearOne(double u) { return 1.0 / __builtin_sqrt(1.0 + u); }
 KINGPIN_INLINE double Exp(double x) { return ::exp(x); }
 KINGPIN_INLINE void SinCos(double x, double& s, double& c) {
   s = ::sin(x);

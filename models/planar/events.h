@@ -19,8 +19,8 @@ struct Switches {
 
 template <class S>
 KINGPIN_INLINE S CalcElongation(const Structure& st, const Constants<S>& k, const State<S>& x) {
+  using math::InverseSqrtNearOne;
   using math::SinCos;
-  using math::Sqrt;
   S s, c;
   SinCos(x.q[2], s, c);
   const S c1 = c - 1.0;
@@ -28,14 +28,15 @@ KINGPIN_INLINE S CalcElongation(const Structure& st, const Constants<S>& k, cons
   S move_y = x.q[1] + (s * k.outer_x + c1 * k.outer_y);
   if (st.two_way) move_y = move_y - x.q[3];
   const S growth = move_x * (k.rod_x + k.rod_x + move_x) + move_y * (k.rod_y + k.rod_y + move_y);
-  return Sqrt(k.rod_length_squared + growth) - k.rod_length;
+  const S u = growth * k.inverse_rod_length_squared;
+  return k.rod_length * ((1.0 + u) * InverseSqrtNearOne(u) - 1.0);
 }
 
 /// The value of one switching function. Friction: while sliding, the speed in the direction of
 /// sliding; while sticking, limit − |reaction|.
 template <class S>
-S CalcSwitch(const Structure& st, const Constants<S>& k, const State<S>& x, const S& road_force,
-             const S& slip, int index) {
+[[gnu::noinline]] S CalcSwitch(const Structure& st, const Constants<S>& k, const State<S>& x,
+                               const S& road_force, const S& slip, int index) {
   using math::Abs;
   using math::Any;
   switch (index) {
@@ -67,13 +68,15 @@ KINGPIN_INLINE bool IsSwitchUsed(const Structure& st, int index) {
 /// Decides what friction does in a state where the rack rests: holds it if it can, else lets it
 /// slide the way it is pushed.
 template <class S>
-void UpdateFriction(const Structure& st, const Constants<S>& k, const State<S>& x,
-                    const S& road_force, Switches<S>& sw) {
+[[gnu::noinline]] void UpdateFriction(const Structure& st, const Constants<S>& k, const State<S>& x,
+                                      const S& road_force, bool breaks_away, Switches<S>& sw) {
   using math::Abs;
   using math::Any;
   Dynamics<S> d;
   CalcDynamics(st, k, x, road_force, S(0.0), d);
-  if (!Any(Abs(d.friction_force) > d.friction_limit)) {
+  // At a located breakaway the reaction equals the limit: the answer is known, and asking again
+  // would let rounding decide.
+  if (!breaks_away && Any(d.friction_limit - Abs(d.friction_force) > S(0.0))) {
     sw.slip = S(0.0);
   } else {
     sw.slip = Any(d.friction_force < S(0.0)) ? S(1.0) : S(-1.0);
@@ -91,7 +94,7 @@ Switches<S> MakeSwitches(const Structure& st, const Constants<S>& k, const State
     if (!IsSwitchUsed(st, i) || i == kFrictionSwitch) continue;
     sw.positive[i] = Any(CalcSwitch(st, k, x, road_force, sw.slip, i) > S(0.0));
   }
-  if (st.friction_law == FrictionLaw::kCoulomb) UpdateFriction(st, k, x, road_force, sw);
+  if (st.friction_law == FrictionLaw::kCoulomb) UpdateFriction(st, k, x, road_force, false, sw);
   return sw;
 }
 
@@ -169,8 +172,9 @@ bool AdvanceThroughEvents(const Structure& st, const Constants<S>& k, double t, 
     x = found_state;
     begin = begin + found;
     if (which == kFrictionSwitch) {
-      if (!Any(sw.slip == S(0.0))) x.v[3] = S(0.0);
-      UpdateFriction(st, k, x, force(t, begin), sw);
+      const bool slid = !Any(sw.slip == S(0.0));
+      if (slid) x.v[3] = S(0.0);
+      UpdateFriction(st, k, x, force(t, begin), !slid, sw);
       // A push that only just touches the limit: broken away and back at once. Held to the end of
       // the step. A single break-away at once is none of these: a jump of the rod's damper at the
       // end of its free play can push beyond the limit from one moment to the next.

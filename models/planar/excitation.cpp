@@ -193,9 +193,15 @@ double Excitation::CalcForce(double t) const {
   return sum;
 }
 
-std::vector<double> Excitation::MakeKinks(double end) const {
+std::vector<double> Excitation::MakeKinks(double end) const { return MakeKinks(end, false); }
+
+std::vector<double> Excitation::MakeStrongKinks(double end) const { return MakeKinks(end, true); }
+
+std::vector<double> Excitation::MakeKinks(double end, bool strong) const {
   std::vector<double> kinks;
   for (const Pulse& p : pulses_) {
+    // Its third derivative is the first that jumps.
+    if (strong && p.kind == PulseKind::kCubedParabola) continue;
     kinks.push_back(p.start);
     if (p.kind == PulseKind::kRingDown) continue;
     kinks.push_back(p.start + p.duration);
@@ -208,7 +214,11 @@ std::vector<double> Excitation::MakeKinks(double end) const {
       kinks.push_back(p.start + 2 * p.duration + p.gap);
     }
   }
-  kinks.insert(kinks.end(), time_.begin(), time_.end());
+  for (size_t i = 0; i < time_.size(); ++i) {
+    const bool dense = i > 0 && i + 1 < time_.size() &&
+                       std::min(time_[i] - time_[i - 1], time_[i + 1] - time_[i]) < 2.5e-3;
+    if (!strong || !dense) kinks.push_back(time_[i]);
+  }
   std::sort(kinks.begin(), kinks.end());
   // Two kinks closer than rounding would only make an empty step.
   std::vector<double> apart;

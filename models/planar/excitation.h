@@ -51,6 +51,11 @@ class Excitation {
   /// Where a derivative of F_T jumps, increasing, within (0, end). Integrators end a step there.
   std::vector<double> MakeKinks(double end) const;
 
+  /// The kinks that a multistep method must start anew at: jumps of a derivative below the third,
+  /// except at those nodes of a tabulated history that lie closer than 2.5 ms to a neighbour (there
+  /// the jumps are as small as the history is smooth between its samples).
+  std::vector<double> MakeStrongKinks(double end) const;
+
   /// F_T is zero before this time [s]; infinite when it always is.
   double start() const { return start_; }
 
@@ -60,6 +65,8 @@ class Excitation {
   Excitation MakeScaled(double factor) const;
 
  private:
+  std::vector<double> MakeKinks(double end, bool strong) const;
+
   std::vector<Pulse> pulses_;
   std::vector<double> time_, value_, slope_;
   double start_ = 1e300;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 
 /// Parameters of the planar steering model: one front corner seen from above, the rack, the
 /// steering wheel.
@@ -107,5 +108,67 @@ struct Parameters {
   S assist_frequency{};  ///< natural frequency of the second-order lag [rad/s]
   S assist_damping{};    ///< its damping ratio [-]
 };
+
+/// The same parameters on another scalar: `convert(value)` for every number that is an S.
+template <class To, class From, class Convert>
+Parameters<To> ConvertParameters(const Parameters<From>& p, const Convert& convert) {
+  Parameters<To> r;
+  r.carrier_mass = convert(p.carrier_mass);
+  r.carrier_yaw_inertia = convert(p.carrier_yaw_inertia);
+  r.force_x = convert(p.force_x);
+  r.force_y = convert(p.force_y);
+  r.lateral_share = convert(p.lateral_share);
+  r.design_origin_x = convert(p.design_origin_x);
+  r.design_origin_y = convert(p.design_origin_y);
+  r.rack_half_length = convert(p.rack_half_length);
+  r.rack_position = convert(p.rack_position);
+  r.outer_joint_x = convert(p.outer_joint_x);
+  r.outer_joint_y = convert(p.outer_joint_y);
+  r.half_track = convert(p.half_track);
+  r.rod_rigidity = convert(p.rod_rigidity);
+  r.rod_compliance = convert(p.rod_compliance);
+  r.rod_free_play = convert(p.rod_free_play);
+  r.lateral_stiffness = convert(p.lateral_stiffness);
+  r.lateral_x = convert(p.lateral_x);
+  r.lateral_y = convert(p.lateral_y);
+  r.lateral_angle = convert(p.lateral_angle);
+  r.longitudinal_damping = convert(p.longitudinal_damping);
+  r.longitudinal_x = convert(p.longitudinal_x);
+  r.longitudinal_y = convert(p.longitudinal_y);
+  r.longitudinal_angle = convert(p.longitudinal_angle);
+  r.damping_time = convert(p.damping_time);
+  r.aligning_stiffness = convert(p.aligning_stiffness);
+  r.aligning_lag = convert(p.aligning_lag);
+  r.rack_mass = convert(p.rack_mass);
+  r.rack_damping = convert(p.rack_damping);
+  r.friction_coefficient = convert(p.friction_coefficient);
+  r.friction_preload = convert(p.friction_preload);
+  r.friction_constant = convert(p.friction_constant);
+  r.friction_speed = convert(p.friction_speed);
+  r.wheel_inertia = convert(p.wheel_inertia);
+  r.column_stiffness = convert(p.column_stiffness);
+  r.gear_ratio = convert(p.gear_ratio);
+  r.stop_angle = convert(p.stop_angle);
+  r.stop_stiffness = convert(p.stop_stiffness);
+  r.hands_damping = convert(p.hands_damping);
+  r.hands_stiffness = convert(p.hands_stiffness);
+  r.rim_radius = convert(p.rim_radius);
+  r.assist_time = convert(p.assist_time);
+  r.assist_frequency = convert(p.assist_frequency);
+  r.assist_damping = convert(p.assist_damping);
+  r.two_way = p.two_way;
+  r.friction_law = p.friction_law;
+  r.assist_lag = p.assist_lag;
+  const auto convert_curve = [&](const Curve<From>& from, Curve<To>& to) {
+    to.count = from.count;
+    to.x = from.x;
+    for (int i = 0; i < from.count; ++i) {
+      to.f[static_cast<std::size_t>(i)] = convert(from.f[static_cast<std::size_t>(i)]);
+    }
+  };
+  convert_curve(p.longitudinal_force, r.longitudinal_force);
+  convert_curve(p.assist_force, r.assist_force);
+  return r;
+}
 
 }  // namespace kingpin::planar

@@ -63,14 +63,27 @@ struct Dynamics {
   S supplied_power;    ///< by the road, the assistance and a lagged aligning torque [W]
 };
 
+/// What the change of the forces with a small change of the state needs, besides constants.
+template <class S>
+struct Tangent {
+  S rod_lever;               ///< of the rod about the carrier's centre of mass [m]
+  S lateral_lever;           ///< [m]
+  S longitudinal_lever;      ///< [m]
+  S longitudinal_stiffness;  ///< dS_N/dd [N/m]
+  S assist_slope;            ///< df/d|M| [N/(N m)]
+};
+
 /// Accelerations, rates of the extra states and loads at (x, F_T).
 /// `slip` (Coulomb only): the sign of the sliding speed, lane by lane; 0 means that the rack
 /// sticks: its acceleration is zero and friction_force is the reaction that this takes, which the
 /// caller compares with friction_limit.
-template <class S>
+/// F: S, or double when all lanes have the same road force.
+template <bool kWithTangent, class S, class F>
 KINGPIN_INLINE void CalcDynamics(const Structure& st, const Constants<S>& k, const State<S>& x,
-                                 const S& road_force, const S& slip, Dynamics<S>& out) {
+                                 const F& road_force, const S& slip, Dynamics<S>& out,
+                                 Tangent<S>& tangent) {
   using math::Abs;
+  using math::InverseSqrtNearOne;
   using math::Max;
   using math::Min;
   using math::Select;
@@ -84,11 +97,13 @@ KINGPIN_INLINE void CalcDynamics(const Structure& st, const Constants<S>& k, con
   const S c1 = c - 1.0;
 
   // Tie rod.
-  const S rx = c * k.outer_x - s * k.outer_y;
-  const S ry = s * k.outer_x + c * k.outer_y;
-  S move_x = dx + (c1 * k.outer_x - s * k.outer_y);
-  S move_y = dy + (s * k.outer_x + c1 * k.outer_y);
-  S rate_x = vx - w * ry;
+  const S turn_x = c1 * k.outer_x - s * k.outer_y;
+  const S turn_y = s * k.outer_x + c1 * k.outer_y;
+  const S rx = k.outer_x + turn_x;
+  const S ry = k.outer_y + turn_y;
+  const S move_x = dx + turn_x;
+  S move_y = dy + turn_y;
+  const S rate_x = vx - w * ry;
   S rate_y = vy + w * rx;
   if (st.two_way) {
     move_y = move_y - rack;
@@ -97,11 +112,12 @@ KINGPIN_INLINE void CalcDynamics(const Structure& st, const Constants<S>& k, con
   const S length_x = k.rod_x + move_x;
   const S length_y = k.rod_y + move_y;
   const S growth = move_x * (k.rod_x + length_x) + move_y * (k.rod_y + length_y);  // l² − l_0²
-  const S length = Sqrt(k.rod_length_squared + growth);
-  const S inverse_length = 1.0 / length;
+  const S u = growth * k.inverse_rod_length_squared;
+  const S inverse = InverseSqrtNearOne(u);  // l_0 / l
+  const S inverse_length = inverse * k.inverse_rod_length;
   const S ex = length_x * inverse_length;
   const S ey = length_y * inverse_length;
-  S elongation = length - k.rod_length;
+  S elongation = k.rod_length * ((1.0 + u) * inverse - 1.0);
   const S rod_rate = ex * rate_x + ey * rate_y;
   S rod_damping_force = k.rod_damping * rod_rate;
   if (st.has_free_play) {
@@ -124,7 +140,8 @@ KINGPIN_INLINE void CalcDynamics(const Structure& st, const Constants<S>& k, con
   const S longitudinal_d = n.nx * dx + n.ny * dy + (s * n.lever + c1 * n.offset);
   const S longitudinal_rate = n.nx * vx + n.ny * vy + w * longitudinal_lever;
   const S longitudinal_force =
-      math::EvaluateSpline(st.longitudinal, k.longitudinal_force, longitudinal_d) +
+      math::EvaluateSpline<kWithTangent>(st.longitudinal, k.longitudinal_force, longitudinal_d,
+                                         tangent.longitudinal_stiffness) +
       k.longitudinal_damping * longitudinal_rate;
 
   // Column and assistance.
@@ -138,13 +155,15 @@ KINGPIN_INLINE void CalcDynamics(const Structure& st, const Constants<S>& k, con
   }
   const S torque = elastic_torque + k.column_damping * twist_rate;
   S assist = zero;
+  if constexpr (kWithTangent) tangent.assist_slope = zero;
   out.extra_rate[kAligningState] = zero;
   out.extra_rate[kAssistState] = zero;
   out.extra_rate[kAssistRateState] = zero;
   if (st.assist.count > 0) {
     const auto negative = bar_torque < zero;
     const S magnitude = Select(negative, -bar_torque, bar_torque);
-    const S curve = math::EvaluateSpline(st.assist, k.assist_force, magnitude);
+    const S curve = math::EvaluateSpline<kWithTangent>(st.assist, k.assist_force, magnitude,
+                                                       tangent.assist_slope);
     assist = Select(negative, -curve, curve);
     if (st.assist_lag == AssistLag::kFirstOrder) {
       out.extra_rate[kAssistState] = (assist - x.extra[kAssistState]) * k.assist_rate;
@@ -194,6 +213,11 @@ KINGPIN_INLINE void CalcDynamics(const Structure& st, const Constants<S>& k, con
   }
   const S sum_phi = -torque - k.hands_stiffness * phi - k.hands_damping * phi_v;
 
+  if constexpr (kWithTangent) {
+    tangent.rod_lever = rx * ey - ry * ex;
+    tangent.lateral_lever = lateral_lever;
+    tangent.longitudinal_lever = longitudinal_lever;
+  }
   out.a[0] = sum_x * k.inverse_mass[0];
   out.a[1] = sum_y * k.inverse_mass[1];
   out.a[2] = sum_psi * k.inverse_mass[2];
@@ -217,6 +241,13 @@ KINGPIN_INLINE void CalcDynamics(const Structure& st, const Constants<S>& k, con
                        assist * rack_v + lagged_power;
 }
 
+template <class S, class F>
+KINGPIN_INLINE void CalcDynamics(const Structure& st, const Constants<S>& k, const State<S>& x,
+                                 const F& road_force, const S& slip, Dynamics<S>& out) {
+  Tangent<S> unused;
+  CalcDynamics<false>(st, k, x, road_force, slip, out, unused);
+}
+
 /// ½ q̇ᵀ M q̇ [J].
 template <class S>
 S CalcKineticEnergy(const Constants<S>& k, const State<S>& x) {
@@ -228,10 +259,10 @@ S CalcKineticEnergy(const Constants<S>& k, const State<S>& x) {
 /// V(q) [J], zero at rest.
 template <class S>
 S CalcPotentialEnergy(const Structure& st, const Constants<S>& k, const State<S>& x) {
+  using math::InverseSqrtNearOne;
   using math::Max;
   using math::Min;
   using math::SinCos;
-  using math::Sqrt;
   const S &psi = x.q[2], &rack = x.q[3], &phi = x.q[4];
   S s, c;
   SinCos(psi, s, c);
@@ -240,7 +271,8 @@ S CalcPotentialEnergy(const Structure& st, const Constants<S>& k, const State<S>
   S move_y = x.q[1] + (s * k.outer_x + c1 * k.outer_y);
   if (st.two_way) move_y = move_y - rack;
   const S growth = move_x * (2.0 * k.rod_x + move_x) + move_y * (2.0 * k.rod_y + move_y);
-  S elongation = Sqrt(k.rod_length_squared + growth) - k.rod_length;
+  const S u = growth * k.inverse_rod_length_squared;
+  S elongation = k.rod_length * ((1.0 + u) * InverseSqrtNearOne(u) - 1.0);
   if (st.has_free_play) {
     elongation = elongation - Max(Min(elongation, k.rod_half_play), -k.rod_half_play);
   }

@@ -52,7 +52,8 @@ template <class S>
 struct Constants {
   S inverse_mass[kCoordinates];
   // Tie rod: outer joint on the carrier, vector from the inner to the outer joint at rest.
-  S outer_x, outer_y, rod_x, rod_y, rod_length, rod_length_squared;
+  S outer_x, outer_y, rod_x, rod_y, rod_length, rod_length_squared, inverse_rod_length,
+      inverse_rod_length_squared;
   S rod_stiffness, rod_damping, rod_half_play;
   Line<S> lateral;
   S lateral_stiffness, lateral_damping;
@@ -99,6 +100,8 @@ Model<S> MakeModel(const Parameters<S>& p) {
   k.rod_y = k.outer_y - (p.rack_half_length - p.half_track);
   k.rod_length_squared = k.rod_x * k.rod_x + k.rod_y * k.rod_y;
   k.rod_length = Sqrt(k.rod_length_squared);
+  k.inverse_rod_length = 1.0 / k.rod_length;
+  k.inverse_rod_length_squared = k.inverse_rod_length * k.inverse_rod_length;
   k.rod_stiffness = 1.0 / (k.rod_length / p.rod_rigidity + p.rod_compliance);
   k.rod_damping = p.damping_time * k.rod_stiffness;
   k.rod_half_play = 0.5 * p.rod_free_play;

@@ -13,9 +13,10 @@ struct Ledger {
 
 /// One step of the classical fourth-order Runge-Kutta method (the paper's) from `x`, in place.
 /// `f0`, `f1`, `f2`: road force at the beginning, the middle and the end of the step.
-template <bool kWithLedger, class S>
+/// F: S, or double when all lanes have the same road force.
+template <bool kWithLedger, class S, class F>
 KINGPIN_INLINE void StepRungeKutta4(const Structure& st, const Constants<S>& k, const S& h,
-                                    const S& f0, const S& f1, const S& f2, const S& slip,
+                                    const F& f0, const F& f1, const F& f2, const S& slip,
                                     State<S>& x, Ledger<S>& ledger) {
   const S half = 0.5 * h;
   const S sixth = h * (1.0 / 6.0);
@@ -23,7 +24,7 @@ KINGPIN_INLINE void StepRungeKutta4(const Structure& st, const Constants<S>& k, 
   State<S> sum = x;
   Dynamics<S> d;
   // sum += weight · rates(at); at = x + shift · rates(at)
-  const auto stage = [&](const S& force, const S& weight, const S& shift, bool last) {
+  const auto stage = [&](const F& force, const S& weight, const S& shift, bool last) {
     CalcDynamics(st, k, at, force, slip, d);
     for (int i = 0; i < kCoordinates; ++i) {
       sum.q[i] = sum.q[i] + weight * at.v[i];
@@ -46,10 +47,11 @@ KINGPIN_INLINE void StepRungeKutta4(const Structure& st, const Constants<S>& k, 
     }
   };
   const S third = h * (1.0 / 3.0);
-  stage(f0, sixth, half, false);
-  stage(f1, third, half, false);
-  stage(f1, third, h, false);
-  stage(f2, sixth, h, true);
+  // A loop, so that the forces are compiled once.
+  for (int i = 0; i < 4; ++i) {
+    const bool outer = i == 0 || i == 3;
+    stage(i == 0 ? f0 : i == 3 ? f2 : f1, outer ? sixth : third, i < 2 ? half : h, i == 3);
+  }
   x = sum;
 }
 

@@ -2,13 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "core/io/error.h"
 #include "models/planar/accelerations.h"
 #include "models/planar/events.h"
+#include "models/planar/exponential_adams.h"
+#include "models/planar/exponential_runge_kutta.h"
 #include "models/planar/runge_kutta.h"
+#include "models/planar/schedule.h"
 #include "models/planar/validate.h"
 
 namespace kingpin::planar {
@@ -101,6 +105,209 @@ class Run {
   Switches<double> switches_;
 };
 
+/// One run with the fast method. The powers are integrated with the corrector's weights, or by
+/// Simpson's rule over one-step pieces.
+class FastRun {
+ public:
+  FastRun(const Model<double>& model, const Schedule& schedule)
+      : st_(model.structure), k_(model.constants), rod_(MakeRodMode(st_, k_, false)) {
+    MakeAdamsWeights(rod_, schedule.adams_step, adams_);
+    MakeCorrectorWeights(corrector_);
+  }
+
+  void Advance(const ScheduleStep& step) {
+    if (step.kind == StepKind::kAdams) {
+      AdamsEnd<double> end;
+      StepAdams(st_, k_, rod_, adams_, step.force[2], history_, now_.state, error_, end);
+      PushPower(step.force[2]);
+      for (int j = 0; j < kAdamsOrder; ++j) {
+        const Ledger<double>& power = powers_[(head_ + j) & 7];
+        now_.ledger.dissipated += step.h * corrector_[j] * power.dissipated;
+        now_.ledger.supplied += step.h * corrector_[j] * power.supplied;
+      }
+      return;
+    }
+    State<double> middle = now_.state;
+    OneStepWeights<double, double> half, whole;
+    MakeOneStepWeights(rod_, 0.5 * step.h, half);
+    MakeOneStepWeights(rod_, step.h, whole);
+    // Its own middle force lies at a quarter of the step; linear between is good enough for a state
+    // that only weighs power.
+    StepOneStep(st_, k_, rod_, half, step.force[0], 0.5 * (step.force[0] + step.force[1]),
+                step.force[1], 0.0, middle);
+    AddPower(now_.state, step.force[0], step.h / 6);
+    AddPower(middle, step.force[1], 4 * step.h / 6);
+    StepOneStep(st_, k_, rod_, whole, step.force[0], step.force[1], step.force[2], 0.0, now_.state);
+    AddPower(now_.state, step.force[2], step.h / 6);
+    if (step.kind == StepKind::kOneStepRemembered) {
+      Dynamics<double> d;
+      CalcDynamics(st_, k_, now_.state, step.force[2], 0.0, d);
+      SplitRemainder(rod_, now_.state, d, st_.has_extra_states(), history_.Push());
+      PushPower(step.force[2]);
+    }
+  }
+
+  void UpdateFastest() {
+    for (int i = 0; i < kCoordinates; ++i) {
+      fastest_[i] = std::max(fastest_[i], std::abs(now_.state.v[i]));
+    }
+  }
+
+  double CalcErrorEstimate() const {
+    double worst = 0;
+    for (int i = 0; i < kCoordinates; ++i) {
+      worst = std::max(worst, error_[i] / std::max(fastest_[i], 1e-300));
+    }
+    return worst * kAdamsErrorConstant * adams_.h;
+  }
+
+  const Extended& now() const { return now_; }
+
+ private:
+  /// ∫_0^1 of the Lagrange polynomials on the nodes 1, 0, −1, ...
+  static void MakeCorrectorWeights(double (&weight)[kAdamsOrder]) {
+    constexpr double kNumerators[kAdamsOrder] = {19087, 65112, -46461, 37504, -20211, 6312, -863};
+    for (int j = 0; j < kAdamsOrder; ++j) weight[j] = kNumerators[j] / 60480;
+  }
+
+  Ledger<double> CalcPower(const State<double>& x, double force) const {
+    Dynamics<double> d;
+    CalcDynamics(st_, k_, x, force, 0.0, d);
+    return {d.dissipated_power, d.supplied_power};
+  }
+  void PushPower(double force) {
+    head_ = (head_ - 1) & 7;
+    powers_[head_] = CalcPower(now_.state, force);
+  }
+  void AddPower(const State<double>& x, double force, double weight) {
+    const Ledger<double> power = CalcPower(x, force);
+    now_.ledger.dissipated += weight * power.dissipated;
+    now_.ledger.supplied += weight * power.supplied;
+  }
+
+  const Structure& st_;
+  const Constants<double>& k_;
+  RodMode<double> rod_;
+  AdamsWeights<double> adams_;
+  AdamsHistory<double> history_{};
+  double corrector_[kAdamsOrder];
+  Ledger<double> powers_[8] = {};
+  int head_ = 0;
+  Extended now_;
+  double error_[kCoordinates] = {}, fastest_[kCoordinates] = {};
+};
+
+class Recorder {
+ public:
+  Recorder(const Model<double>& model, const Excitation& excitation, int intervals)
+      : model_(model), excitation_(excitation) {
+    const auto reserve = [&](std::vector<double>& list) {
+      list.reserve(static_cast<size_t>(intervals) + 1);
+    };
+    for (int i = 0; i < kCoordinates; ++i) {
+      reserve(h_.q[i]);
+      reserve(h_.v[i]);
+      reserve(h_.a[i]);
+    }
+    for (std::vector<double>* list :
+         {&h_.time, &h_.rim_acceleration, &h_.torsion_torque, &h_.tie_rod_force, &h_.rack_force,
+          &h_.friction_force, &h_.assist_force, &h_.road_force, &h_.kinetic_energy,
+          &h_.potential_energy, &h_.dissipated_energy, &h_.supplied_energy}) {
+      reserve(*list);
+    }
+  }
+
+  void Sample(double t, const Extended& now, double slip) {
+    const State<double>& x = now.state;
+    const double force = excitation_.CalcForce(t);
+    const Dynamics<double> d = CalcForces(model_, x, force, slip);
+    h_.time.push_back(t);
+    for (int i = 0; i < kCoordinates; ++i) {
+      h_.q[i].push_back(x.q[i]);
+      h_.v[i].push_back(x.v[i]);
+      h_.a[i].push_back(d.a[i]);
+    }
+    h_.rim_acceleration.push_back(d.a[4] * model_.constants.rim_radius);
+    h_.torsion_torque.push_back(d.torsion_torque);
+    h_.tie_rod_force.push_back(d.rod_force);
+    h_.rack_force.push_back(d.rack_rod_force);
+    h_.friction_force.push_back(d.friction_force);
+    h_.assist_force.push_back(d.assist_force);
+    h_.road_force.push_back(force);
+    h_.kinetic_energy.push_back(CalcKineticEnergy(model_, x));
+    h_.potential_energy.push_back(CalcPotentialEnergy(model_, x));
+    h_.dissipated_energy.push_back(now.ledger.dissipated);
+    h_.supplied_energy.push_back(now.ledger.supplied);
+  }
+
+  History Take() { return std::move(h_); }
+
+ private:
+  const Model<double>& model_;
+  const Excitation& excitation_;
+  History h_;
+};
+
+[[noreturn]] void FailDiverged(const State<double>& x, int coordinate, double t, double step) {
+  throw io::RunError(fmt::format(
+      "the planar model diverges at t = {:.4f} s in coordinate {} = {:g}, rate {:g}; with step "
+      "{:g} s",
+      t, kCoordinateNames[coordinate], x.q[coordinate], x.v[coordinate], step));
+}
+
+History SimulateRungeKutta(const Parameters<double>& parameters, const Model<double>& model,
+                           const Excitation& excitation, const SimulationOptions& options, int n) {
+  const std::vector<double> kinks = excitation.MakeKinks(options.duration);
+  Run run(parameters, excitation, options);
+  Recorder recorder(model, excitation, n);
+  recorder.Sample(0, run.now(), run.slip());
+  size_t next_kink = 0;
+  for (int i = 0; i < n; ++i) {
+    const double t0 = options.duration * i / n;
+    const double t1 = options.duration * (i + 1) / n;
+    // At rest nothing moves before the excitation begins.
+    if (t1 > excitation.start()) {
+      double t = t0;
+      while (next_kink < kinks.size() && kinks[next_kink] < t1) {
+        if (kinks[next_kink] > t) {
+          run.Advance(t, kinks[next_kink]);
+          t = kinks[next_kink];
+        }
+        ++next_kink;
+      }
+      run.Advance(t, t1);
+      const int diverged = FindDivergedCoordinate(run.now().state.q, run.now().state.v);
+      if (diverged >= 0) FailDiverged(run.now().state, diverged, t1, options.step);
+    }
+    recorder.Sample(t1, run.now(), run.slip());
+  }
+  return recorder.Take();
+}
+
+/// False when the error estimate is not met and this is not the last trial.
+bool SimulateFast(const Model<double>& model, const Excitation& excitation,
+                  const SimulationOptions& options, bool last, Recorder& recorder) {
+  const Schedule schedule =
+      MakeAdamsSchedule(excitation, options.duration, options.sample_interval, options.step);
+  FastRun run(model, schedule);
+  const auto time = [&](int sample) { return options.duration * sample / (schedule.samples - 1); };
+  int sample = 0;
+  for (; sample <= schedule.first_sample; ++sample) recorder.Sample(time(sample), run.now(), 0);
+  for (const ScheduleStep& step : schedule.steps) {
+    run.Advance(step);
+    if (!step.sample) continue;
+    run.UpdateFastest();
+    const int diverged = FindDivergedCoordinate(run.now().state.q, run.now().state.v);
+    if (diverged >= 0) {
+      if (!last) return false;
+      FailDiverged(run.now().state, diverged, time(sample), options.step);
+    }
+    recorder.Sample(time(sample), run.now(), 0);
+    ++sample;
+  }
+  return last || run.CalcErrorEstimate() <= options.tolerance;
+}
+
 }  // namespace
 
 int CalcSampleIntervals(double duration, double sample_interval, double step) {
@@ -125,75 +332,22 @@ int FindDivergedCoordinate(const double* q, const double* v) {
 History Simulate(const Parameters<double>& parameters, const Excitation& excitation,
                  const SimulationOptions& options) {
   ValidateParameters(parameters);
-  const int n = CalcSampleIntervals(options.duration, options.sample_interval, options.step);
-  const std::vector<double> kinks = excitation.MakeKinks(options.duration);
-  Run run(parameters, excitation, options);
-  const Model<double>& model = run.model();
-
-  History h;
-  const auto reserve = [&](std::vector<double>& list) { list.reserve(static_cast<size_t>(n) + 1); };
-  for (int i = 0; i < kCoordinates; ++i) {
-    reserve(h.q[i]);
-    reserve(h.v[i]);
-    reserve(h.a[i]);
+  CheckOption(options.step >= 0, "step", options.step, "a time > 0, or 0 for the default [s]");
+  const Model<double> model = MakeModel(parameters);
+  const bool fast = options.method == Method::kFast && !model.structure.has_events() &&
+                    model.structure.friction_law != FrictionLaw::kSmoothed;
+  SimulationOptions used = options;
+  // Where the fast method cannot run, its step would be too large for RK4.
+  if (used.step == 0) used.step = fast ? 2.5e-4 : 1e-5;
+  if (options.method == Method::kFast && !fast) used.step = std::min(used.step, 1e-5);
+  const int n = CalcSampleIntervals(used.duration, used.sample_interval, used.step);
+  if (!fast) return SimulateRungeKutta(parameters, model, excitation, used, n);
+  for (int round = 0;; ++round) {
+    const bool last = round == 6;
+    Recorder recorder(model, excitation, n);
+    if (SimulateFast(model, excitation, used, last, recorder)) return recorder.Take();
+    used.step *= 0.5;
   }
-  for (std::vector<double>* list :
-       {&h.time, &h.rim_acceleration, &h.torsion_torque, &h.tie_rod_force, &h.rack_force,
-        &h.friction_force, &h.assist_force, &h.road_force, &h.kinetic_energy, &h.potential_energy,
-        &h.dissipated_energy, &h.supplied_energy}) {
-    reserve(*list);
-  }
-  const auto sample = [&](double t) {
-    const State<double>& x = run.now().state;
-    const double force = excitation.CalcForce(t);
-    const Dynamics<double> d = CalcForces(model, x, force, run.slip());
-    h.time.push_back(t);
-    for (int i = 0; i < kCoordinates; ++i) {
-      h.q[i].push_back(x.q[i]);
-      h.v[i].push_back(x.v[i]);
-      h.a[i].push_back(d.a[i]);
-    }
-    h.rim_acceleration.push_back(d.a[4] * model.constants.rim_radius);
-    h.torsion_torque.push_back(d.torsion_torque);
-    h.tie_rod_force.push_back(d.rod_force);
-    h.rack_force.push_back(d.rack_rod_force);
-    h.friction_force.push_back(d.friction_force);
-    h.assist_force.push_back(d.assist_force);
-    h.road_force.push_back(force);
-    h.kinetic_energy.push_back(CalcKineticEnergy(model, x));
-    h.potential_energy.push_back(CalcPotentialEnergy(model, x));
-    h.dissipated_energy.push_back(run.now().ledger.dissipated);
-    h.supplied_energy.push_back(run.now().ledger.supplied);
-  };
-
-  sample(0);
-  size_t next_kink = 0;
-  for (int i = 0; i < n; ++i) {
-    const double t0 = options.duration * i / n;
-    const double t1 = options.duration * (i + 1) / n;
-    // At rest nothing moves before the excitation begins.
-    if (t1 > excitation.start()) {
-      double t = t0;
-      while (next_kink < kinks.size() && kinks[next_kink] < t1) {
-        if (kinks[next_kink] > t) {
-          run.Advance(t, kinks[next_kink]);
-          t = kinks[next_kink];
-        }
-        ++next_kink;
-      }
-      run.Advance(t, t1);
-      const int diverged = FindDivergedCoordinate(run.now().state.q, run.now().state.v);
-      if (diverged >= 0) {
-        throw io::RunError(fmt::format(
-            "the planar model diverges at t = {:.4f} s in coordinate {} = {:g}, rate {:g}; with "
-            "step {:g} s",
-            t1, kCoordinateNames[diverged], run.now().state.q[diverged],
-            run.now().state.v[diverged], options.step));
-      }
-    }
-    sample(t1);
-  }
-  return h;
 }
 
 double History::CalcEnergyResidual() const {

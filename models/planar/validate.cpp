@@ -49,13 +49,12 @@ void CheckCurve(std::string_view name, const Curve<double>& curve, int least) {
     Fail(name, fmt::format("{} nodes", curve.count),
          fmt::format("{}2 to {} nodes", least == 0 ? "none or " : "", kMaxCurveNodes));
   }
-  for (int k = 0; k < curve.count; ++k) {
-    Finite(fmt::format("{}.x[{}]", name, k), curve.x[static_cast<size_t>(k)]);
-    Finite(fmt::format("{}.f[{}]", name, k), curve.f[static_cast<size_t>(k)]);
-    if (k > 0 && !(curve.x[static_cast<size_t>(k)] > curve.x[static_cast<size_t>(k) - 1])) {
-      Fail(fmt::format("{}.x[{}]", name, k),
-           fmt::format("{} after {}", curve.x[static_cast<size_t>(k)],
-                       curve.x[static_cast<size_t>(k) - 1]),
+  // Names are put together only for a message: batches validate every design.
+  for (size_t k = 0; k < static_cast<size_t>(curve.count); ++k) {
+    if (!std::isfinite(curve.x[k])) Finite(fmt::format("{}.x[{}]", name, k), curve.x[k]);
+    if (!std::isfinite(curve.f[k])) Finite(fmt::format("{}.f[{}]", name, k), curve.f[k]);
+    if (k > 0 && !(curve.x[k] > curve.x[k - 1])) {
+      Fail(fmt::format("{}.x[{}]", name, k), fmt::format("{} after {}", curve.x[k], curve.x[k - 1]),
            "nodes that increase");
     }
   }

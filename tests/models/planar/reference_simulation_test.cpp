@@ -59,6 +59,7 @@ TEST(ReferenceSimulation, AgreesWithRungeKutta) {
     const Excitation excitation(set.pulses);
     const ReferenceRun run = SimulateReference(set.parameters, excitation);
     SimulationOptions options;
+    options.method = Method::kRungeKutta4;
     options.step = 1e-5;
     // At the paper's step Runge-Kutta itself is off by 1e-8 of the maximum in the stiff set B.
     EXPECT_LT(CalcWorstDistance(run.history, Simulate(set.parameters, excitation, options)), 2e-8)
@@ -75,6 +76,7 @@ TEST(ReferenceSimulation, TighterTolerancesComeNearerToRungeKutta) {
   const auto set = sets::SetA();
   const Excitation excitation(set.pulses);
   SimulationOptions options;
+  options.method = Method::kRungeKutta4;
   options.step = 2.5e-6;
   const History fine = Simulate(set.parameters, excitation, options);
   ReferenceOptions tight;
@@ -321,6 +323,7 @@ TEST(ReferenceSimulation, CoulombFrictionAgreesWithRungeKutta) {
     const auto p = WithFriction(set.parameters);
     const Excitation excitation(set.pulses);
     SimulationOptions options;
+    options.method = Method::kRungeKutta4;
     options.step = 1e-5;
     const History expected = Simulate(p, excitation, options);
     const ReferenceRun run = SimulateReference(p, excitation);
@@ -340,6 +343,7 @@ TEST(ReferenceSimulation, CoulombFrictionAgreesWithFineRungeKutta) {
   const auto p = WithFriction(set.parameters);
   const Excitation excitation(set.pulses);
   SimulationOptions options;
+  options.method = Method::kRungeKutta4;
   options.step = 2.5e-6;
   const ReferenceRun run = SimulateReference(p, excitation);
   EXPECT_LT(CalcWorstDistance(run.history, Simulate(p, excitation, options)), 1e-8);
@@ -352,6 +356,7 @@ TEST(ReferenceSimulation, StopsAndFreePlayAgreeWithRungeKutta) {
   pulse.duration = 0.02;
   const Excitation excitation({pulse});
   SimulationOptions options;
+  options.method = Method::kRungeKutta4;
   options.step = 5e-6;
   options.duration = 0.3;
   ReferenceOptions reference;

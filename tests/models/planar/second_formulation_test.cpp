@@ -157,6 +157,7 @@ TEST(SecondFormulation, TrajectoriesAgree) {
                     set.parameters.rim_radius);
     }
     SimulationOptions options;
+    options.method = Method::kRungeKutta4;
     options.duration = 0.3;
     options.step = 1e-5;
     const History history = Simulate(set.parameters, excitation, options);
