@@ -345,6 +345,7 @@ std::string DrawGeometry(const std::vector<GeometryItem>& items) {
   svg += "</svg>\n";
 
   std::vector<Series> legend;
+  legend.reserve(items.size());
   for (const GeometryItem& item : items) {
     legend.push_back({.name = item.design->name, .style = StyleOf(item.style)});
   }

@@ -287,6 +287,7 @@ std::string DrawLineChart(const LineChart& chart) {
 
 std::string DrawLegend(const std::vector<Series>& series, double width) {
   std::vector<LegendItem> items;
+  items.reserve(series.size());
   for (const Series& s : series) items.push_back({s.name, &s});
   const LegendRows rows = DrawLegendRows(items, 0.0, width, 0.0);
   return fmt::format(

@@ -15,6 +15,7 @@ TEST(Decimation, ExtremesAndEndsSurvive) {
   std::mt19937_64 random(11);
   std::normal_distribution<double> noise(0.0, 40.0);
   std::vector<PixelPoint> points;
+  points.reserve(100000);
   for (int i = 0; i < 100000; ++i) points.push_back({500.0 * i / 100000.0, noise(random)});
   points[4711].y = 900.0;
   points[77777].y = -900.0;
