@@ -1,6 +1,7 @@
 #include "apps/input_kinds.h"
 
 #include "models/parameters/input_kinds.h"
+#include "optimisation/study/study_schema.h"
 
 namespace kingpin::apps {
 
@@ -8,6 +9,7 @@ namespace kingpin::apps {
 io::InputKinds MakeInputKinds() {
   io::InputKinds kinds;
   parameters::AddInputKinds(&kinds);
+  study::AddInputKinds(&kinds);
   return kinds;
 }
 

@@ -14,8 +14,12 @@ int main(int argc, char** argv) {
   app.set_version_flag("--version", KINGPIN_VERSION);
   apps::CommonOptions options;
   options.command_line.assign(argv, argv + argc);
-  apps::AddVerbCheck(app, options);
+  apps::AddVerbStudy(app, options);
+  apps::AddVerbSimulate(app, options);
+  apps::AddVerbOptimise(app, options);
+  apps::AddVerbModes(app, options);
   apps::AddVerbMetrics(app, options);
+  apps::AddVerbCheck(app, options);
   apps::AddVerbSchema(app, options);
   try {
     app.parse(argc, argv);

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <string>
+
+#include "apps/common_options.h"
+#include "core/io/input_record.h"
+#include "core/io/results.h"
+#include "core/io/schema_core.h"
+
+/// What the verbs that run something have in common.
+namespace kingpin::apps {
+
+/// --set, parsed. Throws io::InputError.
+io::ReadOptions MakeReadOptions(const CommonOptions& options);
+
+/// -o, or results/<name of the file or its folder>.
+std::filesystem::path ResultPath(const CommonOptions& options, const std::filesystem::path& input);
+
+/// The folder with examples/ and models/: the environment variable KINGPIN_ROOT, or where the
+/// program was built.
+std::filesystem::path SourceRoot();
+
+io::RunManifest MakeManifest(const std::string& verb, const CommonOptions& options,
+                             const io::InputRecord& record);
+
+/// `2026-11-22 09:15 UTC`
+std::string FormatNow();
+
+}  // namespace kingpin::apps

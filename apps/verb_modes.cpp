@@ -1,0 +1,41 @@
+#include <memory>
+#include <string>
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include "apps/common_options.h"
+#include "apps/run_support.h"
+#include "core/io/json_text.h"
+#include "optimisation/study/scenario_modes.h"
+#include "optimisation/study/study_schema.h"
+
+namespace kingpin::apps {
+namespace {
+
+void RunModesVerb(const std::string& file, bool held, const CommonOptions& options) {
+  const study::Scenario scenario = study::ReadScenario(file, MakeReadOptions(options));
+  const study::ModesResult result = study::CalcScenarioModes(scenario, held);
+  const std::string json = io::FormatJson(result.json);
+  if (!options.output.empty()) io::WriteFileAtomically(options.output, json);
+  if (options.json) {
+    io::WriteStandardOutput(json);
+  } else if (!options.quiet) {
+    io::WriteStandardOutput(result.text);
+  }
+}
+
+}  // namespace
+
+void AddVerbModes(CLI::App& app, CommonOptions& options) {
+  CLI::App* verb = app.add_subcommand(
+      "modes", "Eigenvalues, mode shapes, A B C D and frequency responses; -o writes JSON");
+  const auto file = std::make_shared<std::string>();
+  const auto held = std::make_shared<bool>(false);
+  verb->add_option("FILE", *file, "A scenario file, or a folder with scenario.yaml")->required();
+  verb->add_flag("--held", *held, "With the steering wheel held");
+  AddCommonOptions(*verb, options);
+  verb->callback([=, &options] { RunModesVerb(*file, *held, options); });
+}
+
+}  // namespace kingpin::apps

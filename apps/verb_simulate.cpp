@@ -1,0 +1,47 @@
+#include <memory>
+#include <string>
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include "apps/common_options.h"
+#include "apps/run_support.h"
+#include "core/io/json_text.h"
+#include "optimisation/study/run_scenario.h"
+#include "optimisation/study/study_schema.h"
+
+namespace kingpin::apps {
+namespace {
+
+void RunSimulateVerb(const std::string& file, const CommonOptions& options) {
+  io::InputRecord record;
+  const study::Scenario scenario = study::ReadScenario(file, MakeReadOptions(options), &record);
+  io::RunManifest manifest = MakeManifest("simulate", options, record);
+  io::ResultDirectory results(ResultPath(options, file));
+  const study::ScenarioResult result = study::RunScenario(scenario);
+  results.WriteText("signals.csv", io::FormatSignals(result.signals));
+  results.WriteJson("summary.json", result.summary);
+  manifest.solver = result.statistics;
+  manifest.duration =
+      std::chrono::duration<double>(std::chrono::system_clock::now() - manifest.start).count();
+  io::WriteManifest(manifest, &results);
+  results.Commit();
+  if (options.json) {
+    io::WriteStandardOutput(io::FormatJson(result.summary));
+  } else if (!options.quiet) {
+    io::WriteStandardOutput(result.text + "\nResults: " + results.target().string() + "\n");
+  }
+}
+
+}  // namespace
+
+void AddVerbSimulate(CLI::App& app, CommonOptions& options) {
+  CLI::App* verb =
+      app.add_subcommand("simulate", "One scenario: signals.csv, summary.json, manifest.json");
+  const auto file = std::make_shared<std::string>();
+  verb->add_option("FILE", *file, "A scenario file, or a folder with scenario.yaml")->required();
+  AddCommonOptions(*verb, options);
+  verb->callback([file, &options] { RunSimulateVerb(*file, options); });
+}
+
+}  // namespace kingpin::apps
