@@ -25,6 +25,15 @@ function(kingpin_isa_kernels target)
       # GCC 12 takes the undefined source of its own masked AVX-512 intrinsics for an uninitialised variable (PR 105593).
       -Wno-maybe-uninitialized -Wno-uninitialized
       ${flags_${isa}} -O3 -ffp-contract=fast -fno-math-errno -fno-trapping-math)
+    if(KINGPIN_SANITIZE AND CMAKE_CXX_COMPILER_ID STREQUAL GNU)
+      # GCC 12 needs many minutes for checks of every pack on the stack of these large inlined functions. What the
+      # kernels get from outside (heap, bounds, arithmetic) stays checked; the same templates on double are checked in full.
+      target_compile_options(${object} PRIVATE -O1 -g1 -fno-sanitize=null,alignment,object-size)
+      if(KINGPIN_SANITIZE MATCHES address)
+        target_compile_options(${object} PRIVATE
+          -fno-sanitize-address-use-after-scope "SHELL:--param asan-stack=0")
+      endif()
+    endif()
     target_sources(${target} PRIVATE $<TARGET_OBJECTS:${object}>)
   endforeach()
 endfunction()
