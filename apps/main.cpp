@@ -1,10 +1,30 @@
 #include <cstdio>
 #include <exception>
+#include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
+#include <fmt/format.h>
 
 #include "apps/common_options.h"
 #include "core/io/error.h"
+#include "core/io/nearest_name.h"
+
+namespace {
+
+/// The parser's own message does not name what it did not know.
+void RequireVerb(const CLI::App& app, const std::string& word) {
+  if (word.empty() || word[0] == '-') return;
+  std::vector<std::string> names;
+  for (const CLI::App* verb : app.get_subcommands([](const CLI::App*) { return true; })) {
+    if (verb->get_name() == word) return;
+    names.push_back(verb->get_name());
+  }
+  throw kingpin::io::InputError({"", 0, "", fmt::format("'{}'", word), "a verb",
+                                 kingpin::io::SuggestName(word, names, "verbs")});
+}
+
+}  // namespace
 
 int main(int argc, char** argv) {
   using namespace kingpin;
@@ -22,6 +42,7 @@ int main(int argc, char** argv) {
   apps::AddVerbCheck(app, options);
   apps::AddVerbSchema(app, options);
   try {
+    if (argc > 1) RequireVerb(app, argv[1]);
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : 2;

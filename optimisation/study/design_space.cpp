@@ -143,7 +143,9 @@ void AddCurve(const Parameters<double>& base, const Parameters<double>& referenc
   }
   if (!bounds->monotone) return;
   for (int k = 0; k + 1 < curve.count; ++k) {
-    if (curve.f[k] > curve.f[k + 1]) {
+    // A search ends on the condition to rounding.
+    const double rounding = 1e-9 * (std::abs(curve.f[k]) + std::abs(curve.f[k + 1]));
+    if (curve.f[k] > curve.f[k + 1] + rounding) {
       Reject(
           context, fmt::format("curves.{}", name),
           fmt::format("a curve that falls from {} to {} N at x = {}", io::FormatNumber(curve.f[k]),

@@ -19,15 +19,19 @@ std::string Pad(const std::string& text, std::size_t width) {
   return characters >= width ? text : text + std::string(width - characters, ' ');
 }
 
-std::string FormatRatioRow(const DesignResult& design, const DesignResult& reference) {
+std::string FormatRatioRow(const DesignResult& design, const DesignResult& initial,
+                           const std::array<double, 5>& weights) {
   std::string row = "  " + Pad(design.name, 26);
   for (int k = 0; k < measures::kMeasureCount; ++k) {
-    row += fmt::format("{:>9.3f}", design.gammas[k] / reference.gammas[k]);
+    row += fmt::format("{:>9.3f}", design.gammas[k] / initial.gammas[k]);
   }
-  row += fmt::format("{:>9.3f}", design.sum_of_ratios);
-  row += fmt::format("{:>11.3f}", design.road_feel_gain / reference.road_feel_gain);
+  row += fmt::format("{:>9.3f}", measures::CalcObjective(design.gammas, initial.gammas, weights));
+  row += fmt::format("{:>11.3f}", design.road_feel_gain / initial.road_feel_gain);
   if (design.search) {
     row += fmt::format("{:>12}{:>9.2f} s", design.search->evaluations, design.seconds);
+  }
+  if (design.relative_to != initial.name) {
+    row += fmt::format("   {:.3f} relative to {}", design.sum_of_ratios, design.relative_to);
   }
   return row + "\n";
 }
@@ -128,7 +132,7 @@ std::string FormatSummary(const StudyResult& study,
                         Pad("ratio to initial", 26), "Γ_1", "Γ_2", "Γ_3", "Γ_4", "Γ_5", "sum",
                         "road feel", "evaluations", "time");
     for (std::size_t i = 1; i < result.designs.size(); ++i) {
-      text += FormatRatioRow(result.designs[i], initial);
+      text += FormatRatioRow(result.designs[i], initial, study.definition.weights());
     }
     for (const std::string& warning : result.warnings) text += "  ! " + warning + "\n";
   }

@@ -1,0 +1,177 @@
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <sys/wait.h>
+
+/// The program run as a user runs it: study, optimise, simulate, modes.
+namespace kingpin {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+struct Outcome {
+  int status = -1;
+  std::string output, errors;
+};
+
+std::string ReadAll(const fs::path& path) {
+  std::ifstream file(path);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+class Program : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ =
+        fs::path(testing::TempDir()) /
+        (std::string("program_") + testing::UnitTest::GetInstance()->current_test_info()->name());
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  Outcome Run(const std::string& arguments) const {
+    const fs::path out = folder_ / "stdout", err = folder_ / "stderr";
+    const std::string command = fmt::format("cd '{}' && '{}' {} >'{}' 2>'{}'", folder_.string(),
+                                            KINGPIN_PROGRAM, arguments, out.string(), err.string());
+    const int raw = std::system(command.c_str());
+    return {WIFEXITED(raw) ? WEXITSTATUS(raw) : -1, ReadAll(out), ReadAll(err)};
+  }
+
+  nlohmann::json Summary(const std::string& folder) const {
+    return nlohmann::json::parse(ReadAll(folder_ / folder / "summary.json"));
+  }
+
+  /// A study of paper set C that takes a second.
+  std::string WriteStudy() const {
+    std::ofstream(folder_ / "quick.yaml") << fmt::format(R"(kind: study
+name: quick
+measures: {{preset: paper_set}}
+cases:
+  - name: case 2
+    model: {{paper_set: {}/examples/paper/set_C.json}}
+    variables:
+      r_L: {{lower: 0.2 m, upper: 0.4 m}}
+      x_tr: {{lower: -0.1825 m, upper: -0.0825 m}}
+    curves:
+      assistance: {{fraction: 10 %}}
+    stages:
+      - {{name: step 1, free: [r_L, x_tr], algorithm: nelder_mead, max_evaluations: 60}}
+      - {{name: step 2, start: step 1, free: [assistance], algorithm: slsqp, max_evaluations: 60}}
+    pareto: {{free: [r_L, x_tr], population: 8, generations: 3}}
+    printed:
+      - {{stage: initial, table: Table 3, gamma_1: 19243.9}}
+)",
+                                                         KINGPIN_SOURCE_DIR);
+    return "quick.yaml";
+  }
+
+  fs::path folder_;
+};
+
+TEST_F(Program, AStudyWritesReportSummaryManifestAndSignals) {
+  const Outcome outcome = Run("study " + WriteStudy() + " -o out");
+  ASSERT_EQ(outcome.status, 0) << outcome.errors;
+  EXPECT_THAT(outcome.output, HasSubstr("Table 3"));
+  EXPECT_THAT(outcome.output, HasSubstr("report.html"));
+  EXPECT_EQ(outcome.errors, "");  // no progress in a pipe
+  EXPECT_THAT(ReadAll(folder_ / "out/report.html"), HasSubstr("<svg"));
+  const nlohmann::json summary = Summary("out");
+  const auto& designs = summary["cases"][0]["designs"];
+  ASSERT_EQ(designs.size(), 3);
+  EXPECT_LT(designs[1]["sum_of_ratios"].get<double>(), 5.0);
+  EXPECT_LE(designs[2]["sum_of_ratios"].get<double>(), 5.0);
+  EXPECT_FALSE(summary["cases"][0]["pareto"].empty());
+  const nlohmann::json manifest = nlohmann::json::parse(ReadAll(folder_ / "out/manifest.json"));
+  EXPECT_FALSE(manifest.empty());
+  const std::string signals = ReadAll(folder_ / "out/case_2/step_1/set_C.csv");
+  EXPECT_EQ(signals.substr(0, 5), "time,");
+}
+
+TEST_F(Program, AStudyIsTheSameForAnyNumberOfThreads) {
+  const std::string file = WriteStudy();
+  ASSERT_EQ(Run("study " + file + " -o one --threads 1").status, 0);
+  ASSERT_EQ(Run("study " + file + " -o three --threads 3").status, 0);
+  nlohmann::json one = Summary("one"), three = Summary("three");
+  for (nlohmann::json* summary : {&one, &three}) {
+    summary->erase("seconds");
+    for (auto& design : (*summary)["cases"][0]["designs"]) {
+      if (design.contains("search")) design["search"].erase("seconds");
+    }
+  }
+  EXPECT_EQ(one, three);
+}
+
+TEST_F(Program, SimulatedSignalsGiveTheSameMeasuresAsTheSummary) {
+  const std::string root = KINGPIN_SOURCE_DIR;
+  const Outcome run = Run("simulate " + root + "/examples/c_segment -o out --quiet");
+  ASSERT_EQ(run.status, 0) << run.errors;
+  const Outcome metrics = Run("metrics out/signals.csv --channel steering.wheel.rim_acceleration");
+  ASSERT_EQ(metrics.status, 0) << metrics.errors;
+  const nlohmann::json again = nlohmann::json::parse(metrics.output);
+  const nlohmann::json summary = Summary("out");
+  for (int k = 1; k <= 5; ++k) {
+    const std::string key = "gamma_" + std::to_string(k);
+    const double value = summary["measures"][key]["value"].get<double>();
+    EXPECT_NEAR(again[key].get<double>(), value, 1e-9 * value) << key;
+  }
+}
+
+TEST_F(Program, TheFastMethodAgreesWithCvodeOnTheShippedCarWithDryFriction) {
+  const std::string scenario = std::string(KINGPIN_SOURCE_DIR) + "/examples/c_segment";
+  ASSERT_EQ(Run("simulate " + scenario + " -o fast").status, 0);
+  ASSERT_EQ(Run("simulate " + scenario + " -o cvode --set method=cvode").status, 0);
+  const nlohmann::json fast = Summary("fast"), cvode = Summary("cvode");
+  for (int k = 1; k <= 5; ++k) {
+    const std::string key = "gamma_" + std::to_string(k);
+    const double value = cvode["measures"][key]["value"].get<double>();
+    EXPECT_NEAR(fast["measures"][key]["value"].get<double>(), value, 1e-6 * value) << key;
+  }
+}
+
+TEST_F(Program, ModesPrintsATableAndTheStateSpace) {
+  const std::string root = KINGPIN_SOURCE_DIR;
+  const Outcome outcome = Run("modes " + root + "/examples/c_segment --json");
+  ASSERT_EQ(outcome.status, 0) << outcome.errors;
+  const nlohmann::json json = nlohmann::json::parse(outcome.output);
+  EXPECT_GE(json["modes"].size(), 5);
+  EXPECT_GE(json["state_space"]["A"].size(), 10);
+}
+
+TEST_F(Program, UnusableInputEndsWithStatusTwoAndLeavesNothing) {
+  const std::string study = WriteStudy();
+  const struct {
+    std::string arguments, message;
+  } cases[] = {
+      {"stdy " + study, "did you mean 'study'?"},
+      {"study missing.yaml", "missing.yaml"},
+      {"study " + study + " --set duration='1 kg'", "expected a time"},
+      {"study " + study + " --set cases[0].variables.r_L.lower='0.5 m'",
+       "more than the lower bound"},
+      {"study " + study + " --set cases[0].variables.r_L.lower='0.3 m'", "start 0.25 m"},
+      {"study " + study + " --set cases[0].stages[1].start=step1", "did you mean 'step 1'?"},
+      {"study " + study + " --set cases[0].stages[0].free='[r_l]'", "did you mean 'r_L'?"},
+      {"study " + study + " -o /proc/kingpin/out", "/proc"},
+      {"optimise " + study + " --case 'case 3'", "did you mean 'case 2'?"},
+  };
+  for (const auto& c : cases) {
+    const Outcome outcome = Run(c.arguments + (c.arguments.find("-o ") == std::string::npos &&
+                                                       c.arguments.rfind("study", 0) == 0
+                                                   ? " -o out"
+                                                   : ""));
+    EXPECT_EQ(outcome.status, 2) << c.arguments;
+    EXPECT_THAT(outcome.errors, HasSubstr(c.message)) << c.arguments;
+    EXPECT_FALSE(fs::exists(folder_ / "out")) << c.arguments;
+  }
+}
+
+}  // namespace
+}  // namespace kingpin
