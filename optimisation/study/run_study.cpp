@@ -172,8 +172,9 @@ optimisation::Result Refine(const optimisation::Problem& problem,
 /// SIMD lanes, with exact derivatives), then locally as it is from the minima found and from all
 /// given starts.
 optimisation::Result Search(const Stage& stage, const DesignSpace& space,
-                            const DesignResult& reference, std::uint64_t seed,
-                            CaseContext& context) {
+                            const DesignResult& reference, std::uint64_t seed, CaseContext& context,
+                            double& seconds) {
+  const auto clock = std::chrono::steady_clock::now();
   const auto& weights = context.definition.weights();
   optimisation::MinimiseOptions options = MakeSearchOptions(stage, space.size(), seed);
   for (const std::string& name : stage.also_from) {
@@ -186,6 +187,7 @@ optimisation::Result Search(const Stage& stage, const DesignSpace& space,
       MakeStageProblem(space, context.evaluator, reference.gammas, weights, context.limits);
   if (!HasSwitchingForces(space.base())) {
     optimisation::Result result = optimisation::Minimise(problem, options, control);
+    seconds = SecondsSince(clock);
     if (stage.random_starts > 0 && !result.cancelled) {
       RepeatFromRandomStarts(stage, space, problem, options, seed, control, result);
     }
@@ -209,6 +211,7 @@ optimisation::Result Search(const Stage& stage, const DesignSpace& space,
   result.restarts = smooth.restarts;
   result.minima = smooth.minima;
   result.spread = smooth.spread;
+  seconds = SecondsSince(clock);
   return result;
 }
 
@@ -249,15 +252,15 @@ void RunStage(const Stage& stage, std::size_t number, CaseContext& context) {
     result.designs.push_back(std::move(design));
     return;
   }
-  const auto clock = std::chrono::steady_clock::now();
   const long before = context.evaluator.simulations();
+  double seconds = 0.0;  // of the search itself, without the repeats from random starts
   const std::string where =
       fmt::format("{}: case '{}', stage '{}'", context.options.file, context.c.name, stage.name);
   const DesignSpace space =
       DesignSpace::Make(base, result.designs.front().parameters, stage.free, context.c.variables,
                         MergeCurves(context.c.curves, stage.curves), where);
   optimisation::Result search =
-      Search(stage, space, reference, context.definition.seed + 1000 * number, context);
+      Search(stage, space, reference, context.definition.seed + 1000 * number, context, seconds);
   if (!std::isfinite(search.value)) {
     throw io::RunError(where + ": no design with finite measures was found");
   }
@@ -266,7 +269,7 @@ void RunStage(const Stage& stage, std::size_t number, CaseContext& context) {
   Compare(design, reference, context.definition.weights());
   design.space = space;
   design.search = std::move(search);
-  design.seconds = SecondsSince(clock);
+  design.seconds = seconds;
   design.simulations = context.evaluator.simulations() - before;
   NoteBounds(design, result);
   result.designs.push_back(std::move(design));
