@@ -258,7 +258,8 @@ void Builder::BuildSupports() {
          "quasi-static equilibrium with the bushings' laws");
   p.longitudinal_force.count = options.longitudinal_nodes;
   for (int i = -half; i <= half; ++i) {
-    const auto node = static_cast<std::size_t>(i + half);
+    const int index = i + half;
+    const auto node = static_cast<std::size_t>(index);
     const double displacement = reach.x() * i / half;
     p.longitudinal_force.x[node] = displacement;
     p.longitudinal_force.f[node] = i == 0 ? 0.0 : front.SolveForce(k, displacement);

@@ -27,7 +27,7 @@ std::vector<ActiveConstraint> FindActiveConstraints(Evaluator& evaluator, const 
   }
   std::vector<ActiveConstraint> active;
   std::vector<Eigen::VectorXd> normals;
-  const auto add = [&](const std::string& name, const char* kind, Eigen::VectorXd normal) {
+  const auto add = [&](const std::string& name, const char* kind, const Eigen::VectorXd& normal) {
     active.push_back({name, kind, std::nullopt});
     normals.push_back(normal.cwiseProduct(range));
   };
