@@ -125,7 +125,7 @@ TEST_F(Program, SimulatedSignalsGiveTheSameMeasuresAsTheSummary) {
   }
 }
 
-TEST_F(Program, TheFastMethodAgreesWithCvodeOnTheShippedCarWithDryFriction) {
+TEST_F(Program, TheDefaultAgreesWithCvodeOnTheShippedCarWithDryFriction) {
   const std::string scenario = std::string(KINGPIN_SOURCE_DIR) + "/examples/c_segment";
   ASSERT_EQ(Run("simulate " + scenario + " -o fast").status, 0);
   ASSERT_EQ(Run("simulate " + scenario + " -o cvode --set method=cvode").status, 0);

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "models/planar/paper_set.h"
+#include "models/planar/simulate.h"
 #include "optimisation/study/design_evaluator.h"
 #include "optimisation/study/run_study.h"
 #include "optimisation/study/stage_problem.h"
@@ -70,6 +71,27 @@ TEST(Paper, TheIdentifiedSetsGiveThePrintedMeasuresToTheirStatedError) {
       }
     }
     EXPECT_NEAR(std::sqrt(sum / 20), kRmsLogError[s], 0.0006) << names[s];
+  }
+}
+
+TEST(Paper, TheFastMethodGivesTheMeasuresOfRungeKuttaTo1e6) {
+  for (const char* name : {"A", "B", "C"}) {
+    const planar::PaperSet set = ReadSet(name);
+    DesignEvaluator evaluator = MakeEvaluator(set);
+    measures::GammaWorkspace workspace(evaluator.plan());
+    planar::SimulationOptions options;
+    options.method = planar::Method::kRungeKutta4;
+    options.step = 1e-5;
+    for (const char* design : kDesigns) {
+      const auto& parameters = set.designs.at(design).parameters;
+      const auto fast = evaluator.Calc(parameters);
+      const auto reference = workspace.Update(
+          planar::Simulate(parameters, planar::Excitation(set.pulses), options).rim_acceleration);
+      for (int k = 0; k < 5; ++k) {
+        EXPECT_NEAR(fast[k], reference[k], 1e-6 * reference[k])
+            << name << " " << design << " Γ_" << k + 1;
+      }
+    }
   }
 }
 
