@@ -11,8 +11,9 @@
 /// units.
 ///
 /// Coordinates q = [x_s, y_s, ψ_s, y, φ]: displacement of the carrier's centre of mass, its yaw,
-/// the rack's travel along +y, the steering wheel's angle (positive to the left; φ = i_U y when the
-/// column is undeformed). All are zero at rest.
+/// the rack's travel along +y, the steering wheel's angle (φ = i_U y when the column is
+/// undeformed: positive φ drives the rack to +y, which steers to the left with the rack ahead of
+/// the steering axis and to the right with it behind). All are zero at rest.
 ///
 /// Source: Szczotka, J. Theor. Appl. Mech. 49(1), 2011, section 2, with the corrections listed in
 /// docs/theory/planar-model.md.

@@ -156,8 +156,10 @@ report::CornerGeometry MakeGeometry(const Parameters<double>& p, const Case& c) 
     g.kingpin = {p.design_origin_x, p.design_origin_y};
     if (c.model.options.road_force_at == planar::CarModeOptions::RoadForceAt::kWheelCentre) {
       g.wheel_centre = g.force_point;
-      g.wheel_radius = 0.316;
-      g.wheel_width = 0.195;
+      g.wheel_radius = c.model.car->tyres.free_radius;
+      // The parameter set has no tyre width; the outline only needs the proportions of a wheel.
+      constexpr double kDrawnWidthOverRadius = 0.6;
+      g.wheel_width = kDrawnWidthOverRadius * g.wheel_radius;
     }
   }
   return g;
