@@ -27,6 +27,16 @@ std::string ReadAll(const fs::path& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
+// The address sanitizer remarks that it cannot follow fibres; that is not the program's text.
+std::string WithoutSanitizerNotes(const std::string& text) {
+  std::string kept;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    if (!line.starts_with("==")) kept += line + '\n';
+  }
+  return kept;
+}
+
 class Program : public testing::Test {
  protected:
   void SetUp() override {
@@ -82,7 +92,7 @@ TEST_F(Program, AStudyWritesReportSummaryManifestAndSignals) {
   ASSERT_EQ(outcome.status, 0) << outcome.errors;
   EXPECT_THAT(outcome.output, HasSubstr("Table 3"));
   EXPECT_THAT(outcome.output, HasSubstr("report.html"));
-  EXPECT_EQ(outcome.errors, "");  // no progress in a pipe
+  EXPECT_EQ(WithoutSanitizerNotes(outcome.errors), "");  // no progress in a pipe
   EXPECT_THAT(ReadAll(folder_ / "out/report.html"), HasSubstr("<svg"));
   const nlohmann::json summary = Summary("out");
   const auto& designs = summary["cases"][0]["designs"];
