@@ -15,8 +15,9 @@ namespace {
 std::atomic<long> allocations{0};
 }  // namespace
 
-// Counts allocations of this test program. All unaligned forms are replaced together: memory taken through one may
-// be given back through another (std::stable_sort takes its buffer without exceptions), and sanitizers hold us to it.
+// Counts allocations of this test program. All unaligned forms are replaced together: memory taken
+// through one may be given back through another (std::stable_sort takes its buffer without
+// exceptions), and sanitizers hold us to it.
 [[gnu::noinline]] void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
   ++allocations;
   return std::malloc(size);
