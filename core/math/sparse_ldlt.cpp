@@ -1,0 +1,55 @@
+#include "core/math/sparse_ldlt.h"
+
+#include <algorithm>
+
+namespace kingpin::math {
+
+SparseLdltPattern::SparseLdltPattern(std::span<const int> order,
+                                     std::span<const std::pair<int, int>> entries)
+    : unknowns_(static_cast<int>(order.size())), position_(order.size()) {
+  for (int k = 0; k < unknowns_; ++k) position_[order[k]] = k;
+  // Columns as sorted sets; eliminating column j joins its rows to the column of the first of them
+  // (its parent in the elimination tree), which is where all fill comes from.
+  std::vector<std::vector<int>> columns(unknowns_);
+  for (const auto& [i, j] : entries) {
+    const int a = std::min(position_[i], position_[j]), b = std::max(position_[i], position_[j]);
+    if (a != b) columns[a].push_back(b);
+  }
+  begin_.assign(unknowns_ + 1, unknowns_ + 1);
+  for (int j = 0; j < unknowns_; ++j) {
+    std::vector<int>& rows = columns[j];
+    std::sort(rows.begin(), rows.end());
+    rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
+    if (!rows.empty()) {
+      columns[rows[0]].insert(columns[rows[0]].end(), rows.begin() + 1, rows.end());
+    }
+    rows.push_back(unknowns_);  // the right side
+    row_.insert(row_.end(), rows.begin(), rows.end());
+    begin_[j + 1] = unknowns_ + 1 + static_cast<int>(row_.size());
+  }
+  size_ = begin_[unknowns_];
+  // targets: for every pair (a, b) of rows of a column, the slot of (row b, row a)
+  for (int j = 0; j < unknowns_; ++j) {
+    const std::vector<int>& rows = columns[j];
+    for (size_t a = 0; a + 1 < rows.size(); ++a) {
+      targets_.push_back(rows[a]);
+      const std::vector<int>& other = columns[rows[a]];
+      size_t at = 0;
+      for (size_t b = a + 1; b < rows.size(); ++b) {
+        while (other[at] != rows[b]) ++at;
+        targets_.push_back(begin_[rows[a]] + static_cast<int>(at));
+      }
+    }
+  }
+}
+
+int SparseLdltPattern::GetSlot(int i, int j) const {
+  const int a = std::min(position_[i], position_[j]), b = std::max(position_[i], position_[j]);
+  if (a == b) return a;
+  const auto first = row_.begin() + (begin_[a] - (unknowns_ + 1)),
+             last = row_.begin() + (begin_[a + 1] - (unknowns_ + 1));
+  const auto found = std::lower_bound(first, last, b);
+  return found != last && *found == b ? begin_[a] + static_cast<int>(found - first) : -1;
+}
+
+}  // namespace kingpin::math

@@ -1,0 +1,85 @@
+#include "core/mechanism/accelerations.h"
+
+#include <Eigen/Dense>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+namespace kingpin::mechanism {
+
+namespace {
+
+// The equations read back from the factor's storage before the factorisation, as dense matrices.
+Eigen::MatrixXd ExpandMatrix(const Model& model, const Workspace<double>& w) {
+  const int nv = model.velocities, n = nv + model.rows;
+  Eigen::MatrixXd K = Eigen::MatrixXd::Zero(n, n);
+  for (int i = 0; i < nv; ++i) {
+    const int* slot = &model.mass_slots[model.mass_begin[i]];
+    for (int j = i; j >= 0; j = model.dof_parent[j]) K(i, j) = K(j, i) = w.k[*slot++];
+  }
+  for (int r = 0; r < model.rows; ++r) {
+    for (int s = model.support_begin[r]; s < model.support_begin[r + 1]; ++s) {
+      const Model::Support& support = model.supports[s];
+      K(nv + r, support.dof) = K(support.dof, nv + r) = w.k[support.slot];
+    }
+  }
+  const int* slot = model.linear_slots.data();
+  for (const LinearRow& row : model.linear) {
+    for (const LinearRow::Term& term : row.terms) {
+      K(nv + row.row, term.v) = K(term.v, nv + row.row) = w.k[*slot++];
+    }
+  }
+  return K;
+}
+
+// At a singular position rows depend on each other. Accelerations are unique as long as the mass
+// matrix is regular; among the reactions that give them, the smallest are taken.
+void SolveSingular(const Model& model, const Eigen::MatrixXd& K, const Eigen::VectorXd& right,
+                   std::span<double> acceleration, std::span<double> reaction) {
+  const int nv = model.velocities, rows = model.rows;
+  const Eigen::LLT<Eigen::MatrixXd> mass(K.topLeftCorner(nv, nv));
+  const Eigen::MatrixXd D = K.topRightCorner(nv, rows);
+  // with M = L Lᵀ:  y = Lᵀ q̈ meets (L⁻¹D)ᵀ y = c nearest to L⁻¹F
+  const Eigen::MatrixXd B = mass.matrixL().solve(D);
+  const Eigen::VectorXd free = mass.matrixL().solve(right.head(nv));
+  const Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> decomposition(B.transpose());
+  const Eigen::VectorXd c = right.tail(rows);
+  const Eigen::VectorXd correction = decomposition.solve(c - B.transpose() * free);
+  const Eigen::VectorXd y = free + correction;
+  const double miss = (B.transpose() * y - c).norm();
+  if (!(miss <= 1e-6 * (c.norm() + (B.transpose() * free).norm()) + 1e-300)) {
+    int worst = 0;
+    (B.transpose() * y - c).cwiseAbs().maxCoeff(&worst);
+    throw std::runtime_error(fmt::format(
+        "the constraints contradict each other in this position: row '{}' cannot be met",
+        model.row_names[worst]));
+  }
+  Eigen::Map<Eigen::VectorXd>(acceleration.data(), nv) = mass.matrixU().solve(y);
+  // M q̈ - D R = F:  B R = y - L⁻¹F
+  Eigen::Map<Eigen::VectorXd>(reaction.data(), rows) =
+      B.completeOrthogonalDecomposition().solve(correction);
+}
+
+}  // namespace
+
+void SolveAccelerations(const Model& model, std::span<const double> drive_acceleration,
+                        Workspace<double>& w, std::span<double> acceleration,
+                        std::span<double> reaction) {
+  AssembleEquations(model, drive_acceleration.data(), w);
+  const int nv = model.velocities;
+  w.kept_k = w.k;
+  model.pattern.Factorise(w.k.data());
+  if (!PivotsAreSafe(model, w)) {
+    Eigen::VectorXd right(nv + model.rows);
+    for (int i = 0; i < nv + model.rows; ++i)
+      right[i] = w.kept_k[model.pattern.GetRightSideSlot(i)];
+    w.k = w.kept_k;
+    SolveSingular(model, ExpandMatrix(model, w), right, acceleration, reaction);
+    return;
+  }
+  model.pattern.BackSubstitute(w.k.data(), w.x.data());
+  for (int i = 0; i < nv; ++i) acceleration[i] = w.x[model.pattern.position(i)];
+  for (int r = 0; r < model.rows; ++r) reaction[r] = -w.x[model.pattern.position(nv + r)];
+}
+
+}  // namespace kingpin::mechanism

@@ -1,0 +1,97 @@
+#pragma once
+
+#include "core/mechanism/closures.h"
+#include "core/mechanism/kinematics.h"
+
+namespace kingpin::mechanism {
+
+/// Inertias and inertia forces of the links about the reference point:
+///
+///   I_L in world axes,   f_L = I_L A_L + V_L ×* (I_L V_L) - f_applied
+///
+/// Reads the applied wrenches in w.f and replaces them.
+template <class S>
+KINGPIN_INLINE void UpdateInertias(const Model& model, Workspace<S>& w) {
+  const int links = static_cast<int>(model.links.size());
+  for (int l = 1; l < links; ++l) {
+    const Link& link = model.links[l];
+    if (link.mass == 0) {
+      w.I[l] = {};
+      w.f[l] = Wrench<S>{} - w.f[l];
+      continue;
+    }
+    w.I[l] = math::MakeInertia(link.mass, link.centre, link.central_inertia, w.R[l], w.p[l]);
+    w.f[l] = w.I[l] * w.A[l] + Cross(w.V[l], w.I[l] * w.V[l]) - w.f[l];
+  }
+}
+
+/// Writes M into the factor's storage and F = τ - bias into the right side, leaves to root
+/// (composite rigid bodies and the recursive Newton-Euler algorithm in one sweep).
+template <class S>
+KINGPIN_INLINE void AssembleMassAndForces(const Model& model, Workspace<S>& w) {
+  for (int l = static_cast<int>(model.links.size()) - 1; l > 0; --l) {
+    const Link& link = model.links[l];
+    for (int i = link.v + CountVelocities(link.kind) - 1; i >= link.v; --i) {
+      w.k[model.pattern.GetRightSideSlot(i)] = w.generalised[i] - Dot(w.axes[i], w.f[l]);
+      const Wrench<S> momentum = w.I[l] * w.axes[i];
+      const int* slot = &model.mass_slots[model.mass_begin[i]];
+      for (int j = i; j >= 0; j = model.dof_parent[j]) w.k[*slot++] = Dot(w.axes[j], momentum);
+    }
+    if (link.parent != 0) {
+      w.I[link.parent] = w.I[link.parent] + w.I[l];
+      w.f[link.parent] = w.f[link.parent] + w.f[l];
+    }
+  }
+}
+
+/// Writes D and the right side of the constraint rows, Dᵀ q̈ = s̈ - J̇v. A row that is not active gets
+/// the equation R_r = 0.
+template <class S>
+KINGPIN_INLINE void AssembleConstraints(const Model& model, const S* drive_acceleration,
+                                        Workspace<S>& w) {
+  for (int r = 0; r < model.rows; ++r) {
+    const S active = w.active[r];
+    const int position = model.pattern.position(model.velocities + r);
+    w.k[position] = active - S(1.0);
+    w.k[model.pattern.GetRightSideSlot(model.velocities + r)] =
+        active * (drive_acceleration[r] - w.bias[r]);
+    for (int s = model.support_begin[r]; s < model.support_begin[r + 1]; ++s) {
+      const Model::Support& support = model.supports[s];
+      w.k[support.slot] = (active * S(support.sign)) * Dot(w.axes[support.dof], w.W[r]);
+    }
+  }
+  const int* slot = model.linear_slots.data();
+  for (const LinearRow& row : model.linear) {
+    for (const LinearRow::Term& term : row.terms) w.k[*slot++] = w.active[row.row] * S(term.factor);
+  }
+}
+
+/// Whether every pivot kept its sign and stayed away from zero (`Model::pivot_limits`). If not, the
+/// factorisation has lost digits, or the mechanism is in a singular position: SolveAccelerations
+/// then takes a dense way.
+inline bool PivotsAreSafe(const Model& model, const Workspace<double>& w) {
+  bool safe = true;
+  for (int k = 0; k < model.pattern.unknowns(); ++k) {
+    // the factor keeps 1/d: d beyond a limit of its sign is 1/d of that sign and below 1/limit in
+    // size
+    const double share = w.k[k] * model.pivot_limits[k];
+    safe &= share > 0 && share < 1;
+  }
+  return safe;
+}
+
+/// Forms the equations at (q, v) with the wrenches in w.f and forces in w.generalised:
+///
+///   [ M  D ; Dᵀ  0 ] [q̈ ; -R] = [F ; s̈ - J̇v]
+///
+/// that is M q̈ - D R = F, -Dᵀ q̈ = G of the paper's (4.1) with G = J̇v - s̈.
+template <class S>
+KINGPIN_INLINE void AssembleEquations(const Model& model, const S* drive_acceleration,
+                                      Workspace<S>& w) {
+  for (int i = 0; i < model.pattern.size(); ++i) w.k[i] = S(0.0);
+  UpdateInertias(model, w);
+  AssembleMassAndForces(model, w);
+  AssembleConstraints(model, drive_acceleration, w);
+}
+
+}  // namespace kingpin::mechanism
