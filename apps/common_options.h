@@ -11,7 +11,8 @@ class App;
 
 namespace kingpin::apps {
 
-/// Options that every verb understands the same way.
+/// Options that several verbs have and understand the same way. A verb offers those that change
+/// what it does.
 struct CommonOptions {
   std::string output;  ///< -o PATH; empty: results/<name>, or standard output where a verb prints
   std::vector<std::string> sets;  ///< --set path=value, in the order given
@@ -22,8 +23,14 @@ struct CommonOptions {
   std::vector<std::string> command_line;  ///< as typed, for the run manifest
 };
 
-/// Adds the options above to a verb.
-void AddCommonOptions(CLI::App& verb, CommonOptions& options);
+/// -o, with what it means for the verb.
+void AddOutputOption(CLI::App& verb, CommonOptions& options, const std::string& description);
+/// --set
+void AddSetOption(CLI::App& verb, CommonOptions& options);
+/// --threads and --seed
+void AddSearchOptions(CLI::App& verb, CommonOptions& options);
+/// --quiet and --json
+void AddPrintOptions(CLI::App& verb, CommonOptions& options);
 
 /// Verbs. Each adds its subcommand, whose callback does the work and throws io::InputError (status
 /// 2) or any other exception (status 1).

@@ -15,7 +15,8 @@ io::ReadOptions MakeReadOptions(const CommonOptions& options) {
   return read;
 }
 
-std::filesystem::path ResultPath(const CommonOptions& options, const std::filesystem::path& input) {
+std::filesystem::path ResultPath(const std::string& verb, const CommonOptions& options,
+                                 const std::filesystem::path& input) {
   if (!options.output.empty()) return options.output;
   const std::filesystem::path file = std::filesystem::weakly_canonical(input);
   // `study.yaml` says nothing; the folder it stands in does.
@@ -25,7 +26,7 @@ std::filesystem::path ResultPath(const CommonOptions& options, const std::filesy
   const std::string name = is_folder ? file.filename().string()
                            : generic ? file.parent_path().filename().string()
                                      : stem;
-  return std::filesystem::path("results") / name;
+  return std::filesystem::path("results") / (verb == "study" ? name : name + "_" + verb);
 }
 
 std::filesystem::path SourceRoot() {
@@ -33,10 +34,8 @@ std::filesystem::path SourceRoot() {
   return root != nullptr ? std::filesystem::path(root) : std::filesystem::path(KINGPIN_SOURCE_DIR);
 }
 
-io::RunManifest MakeManifest(const std::string& verb, const CommonOptions& options,
-                             const io::InputRecord& record) {
+io::RunManifest MakeManifest(const CommonOptions& options, const io::InputRecord& record) {
   io::RunManifest manifest;
-  manifest.verb = verb;
   manifest.command_line = options.command_line;
   manifest.inputs = record.files;
   manifest.overrides = MakeReadOptions(options).overrides;

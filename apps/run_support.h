@@ -15,15 +15,16 @@ namespace kingpin::apps {
 /// --set, parsed. Throws io::InputError.
 io::ReadOptions MakeReadOptions(const CommonOptions& options);
 
-/// -o, or results/<name of the file or its folder>.
-std::filesystem::path ResultPath(const CommonOptions& options, const std::filesystem::path& input);
+/// -o, or results/<name>_<verb>, where the name is that of the file or its folder; a study, the
+/// main job, goes to results/<name>.
+std::filesystem::path ResultPath(const std::string& verb, const CommonOptions& options,
+                                 const std::filesystem::path& input);
 
 /// The folder with examples/ and models/: the environment variable KINGPIN_ROOT, or where the
 /// program was built.
 std::filesystem::path SourceRoot();
 
-io::RunManifest MakeManifest(const std::string& verb, const CommonOptions& options,
-                             const io::InputRecord& record);
+io::RunManifest MakeManifest(const CommonOptions& options, const io::InputRecord& record);
 
 /// `2026-11-22 09:15 UTC`
 std::string FormatNow();

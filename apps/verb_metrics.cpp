@@ -336,12 +336,8 @@ void AddVerbMetrics(CLI::App& app, CommonOptions& common) {
   verb->add_option("--torque", options->torque, "Torsion torque channel [N m]");
   verb->add_option("--rack-force", options->rack_force, "Rack force channel [N]");
   verb->add_option("--tie-rod-force", options->tie_rod_force, "Tie-rod force channel [N]");
-  AddCommonOptions(*verb, common);
+  AddOutputOption(*verb, common, "File instead of standard output");
   verb->callback([options, &common] {
-    if (!common.sets.empty()) {
-      Reject("command line", "--set", fmt::format("'{}'", common.sets.front()),
-             "no --set: a recorded signal has no parameters");
-    }
     const std::string text = CalcMetrics(*options);
     if (!common.output.empty()) {
       io::WriteFileAtomically(common.output, text);

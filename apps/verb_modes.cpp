@@ -34,7 +34,9 @@ void AddVerbModes(CLI::App& app, CommonOptions& options) {
   const auto held = std::make_shared<bool>(false);
   verb->add_option("FILE", *file, "A scenario file, or a folder with scenario.yaml")->required();
   verb->add_flag("--held", *held, "With the steering wheel held");
-  AddCommonOptions(*verb, options);
+  AddOutputOption(*verb, options, "File for everything as JSON");
+  AddSetOption(*verb, options);
+  AddPrintOptions(*verb, options);
   verb->callback([=, &options] { RunModesVerb(*file, *held, options); });
 }
 

@@ -68,6 +68,11 @@ void RunOptimiseVerb(const std::string& file, const std::string& case_name,
   } else if (!options.quiet) {
     io::WriteStandardOutput(study::FormatSummary(result, {}));
   }
+  if (result.cancelled) {
+    throw io::RunError(options.output.empty()
+                           ? std::string("stopped by Ctrl-C")
+                           : "stopped by Ctrl-C; what was finished is kept in " + options.output);
+  }
 }
 
 }  // namespace
@@ -81,7 +86,10 @@ void AddVerbOptimise(CLI::App& app, CommonOptions& options) {
   verb->add_option("FILE", *file, "A study file, or a folder with study.yaml")->required();
   verb->add_option("--case", *case_name, "Name of the case (default: the first)");
   verb->add_option("--stage", *stage, "Stop after this stage (default: all)");
-  AddCommonOptions(*verb, options);
+  AddOutputOption(*verb, options, "File for the summary as JSON");
+  AddSetOption(*verb, options);
+  AddSearchOptions(*verb, options);
+  AddPrintOptions(*verb, options);
   verb->callback([=, &options] { RunOptimiseVerb(*file, *case_name, *stage, options); });
 }
 

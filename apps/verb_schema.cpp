@@ -17,7 +17,7 @@ void AddVerbSchema(CLI::App& app, CommonOptions& options) {
   const auto is_table = std::make_shared<bool>(false);
   verb->add_option("KIND", *kind, "Which kind; without it, the kinds there are");
   verb->add_flag("--markdown", *is_table, "A table for people instead of JSON Schema");
-  AddCommonOptions(*verb, options);
+  AddOutputOption(*verb, options, "File instead of standard output");
   verb->callback([kind, is_table, &options] {
     const io::InputKinds kinds = MakeInputKinds();
     std::string text;

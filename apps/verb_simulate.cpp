@@ -16,8 +16,8 @@ namespace {
 void RunSimulateVerb(const std::string& file, const CommonOptions& options) {
   io::InputRecord record;
   const study::Scenario scenario = study::ReadScenario(file, MakeReadOptions(options), &record);
-  io::RunManifest manifest = MakeManifest("simulate", options, record);
-  io::ResultDirectory results(ResultPath(options, file));
+  io::RunManifest manifest = MakeManifest(options, record);
+  io::ResultDirectory results(ResultPath("simulate", options, file), "simulate");
   const study::ScenarioResult result = study::RunScenario(scenario);
   results.WriteText("signals.csv", io::FormatSignals(result.signals));
   results.WriteJson("summary.json", result.summary);
@@ -40,7 +40,9 @@ void AddVerbSimulate(CLI::App& app, CommonOptions& options) {
       app.add_subcommand("simulate", "One scenario: signals.csv, summary.json, manifest.json");
   const auto file = std::make_shared<std::string>();
   verb->add_option("FILE", *file, "A scenario file, or a folder with scenario.yaml")->required();
-  AddCommonOptions(*verb, options);
+  AddOutputOption(*verb, options, "Result folder (default: results/<name>_simulate)");
+  AddSetOption(*verb, options);
+  AddPrintOptions(*verb, options);
   verb->callback([file, &options] { RunSimulateVerb(*file, options); });
 }
 

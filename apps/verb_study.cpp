@@ -53,8 +53,8 @@ void RunStudyVerb(const std::string& file, const CommonOptions& options) {
   io::InputRecord record;
   study::StudyDefinition definition = study::ReadStudy(input, MakeReadOptions(options), &record);
   if (options.seed) definition.seed = *options.seed;
-  io::RunManifest manifest = MakeManifest("study", options, record);
-  io::ResultDirectory results(ResultPath(options, input));
+  io::RunManifest manifest = MakeManifest(options, record);
+  io::ResultDirectory results(ResultPath("study", options, input), "study");
 
   CatchInterrupt();
   io::Progress progress(io::IsProgressWanted(options.quiet), 2);
@@ -112,7 +112,10 @@ void AddVerbStudy(CLI::App& app, CommonOptions& options) {
       "study", "The main job: excite, optimise, report. Without FILE: the shipped C-segment car");
   const auto file = std::make_shared<std::string>();
   verb->add_option("FILE", *file, "A study file, or a folder with study.yaml");
-  AddCommonOptions(*verb, options);
+  AddOutputOption(*verb, options, "Result folder (default: results/<name>)");
+  AddSetOption(*verb, options);
+  AddSearchOptions(*verb, options);
+  AddPrintOptions(*verb, options);
   verb->callback([file, &options] { RunStudyVerb(*file, options); });
 }
 

@@ -39,9 +39,12 @@ void FailOutput(const std::filesystem::path& path, std::string_view doing, int r
                                 .suggestion = suggestion});
 }
 
-OutputFile::OutputFile(std::filesystem::path path) : path_(std::move(path)) {
-  descriptor_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-  if (descriptor_ < 0) FailOutput(path_, "creating the file", errno);
+OutputFile::OutputFile(std::filesystem::path path) : OutputFile(path, path) {}
+
+OutputFile::OutputFile(const std::filesystem::path& path, std::filesystem::path shown)
+    : shown_(std::move(shown)) {
+  descriptor_ = ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  if (descriptor_ < 0) FailOutput(shown_, "creating the file", errno);
 }
 
 OutputFile::~OutputFile() {
@@ -62,7 +65,7 @@ void OutputFile::Flush() {
   while (!rest.empty()) {
     const ssize_t count = ::write(descriptor_, rest.data(), rest.size());
     if (count < 0 && errno == EINTR) continue;
-    if (count < 0) FailOutput(path_, "writing", errno);
+    if (count < 0) FailOutput(shown_, "writing", errno);
     rest.remove_prefix(static_cast<std::size_t>(count));
   }
   buffer_.clear();
@@ -72,17 +75,19 @@ void OutputFile::Close() {
   Flush();
   // Some devices and file systems have no fsync; the data is as safe there as it can be.
   if (::fsync(descriptor_) != 0 && errno != EINVAL && errno != EROFS && errno != ENOTSUP) {
-    FailOutput(path_, "writing", errno);
+    FailOutput(shown_, "writing", errno);
   }
   const int descriptor = std::exchange(descriptor_, -1);
-  if (::close(descriptor) != 0 && errno != EINTR) FailOutput(path_, "writing", errno);
+  if (::close(descriptor) != 0 && errno != EINTR) FailOutput(shown_, "writing", errno);
 }
 
-void MakeDirectories(const std::filesystem::path& path) {
+void MakeDirectories(const std::filesystem::path& path) { MakeDirectories(path, path); }
+
+void MakeDirectories(const std::filesystem::path& path, const std::filesystem::path& shown) {
   if (path.empty()) return;
   std::error_code error;
   std::filesystem::create_directories(path, error);
-  if (error) FailOutput(path, "making the folder", error.value());
+  if (error) FailOutput(shown, "making the folder", error.value());
 }
 
 void SyncDirectory(const std::filesystem::path& path) {
@@ -117,7 +122,7 @@ void WriteFileAtomically(const std::filesystem::path& path, std::string_view tex
     const std::filesystem::path& path;
     ~Remover() { ::unlink(path.c_str()); }
   } const remover{temporary};
-  OutputFile file(temporary);
+  OutputFile file(temporary, path);
   file.Write(text);
   file.Close();
   if (::rename(temporary.c_str(), path.c_str()) != 0) FailOutput(path, "creating the file", errno);

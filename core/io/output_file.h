@@ -15,6 +15,8 @@ namespace kingpin::io {
 class OutputFile {
  public:
   explicit OutputFile(std::filesystem::path path);
+  /// Messages name `shown` instead: the place the file will be moved to.
+  OutputFile(const std::filesystem::path& path, std::filesystem::path shown);
   ~OutputFile();
   OutputFile(const OutputFile&) = delete;
   OutputFile& operator=(const OutputFile&) = delete;
@@ -26,7 +28,7 @@ class OutputFile {
  private:
   void Flush();
 
-  std::filesystem::path path_;
+  std::filesystem::path shown_;
   int descriptor_ = -1;
   std::string buffer_;
 };

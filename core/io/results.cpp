@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <ctime>
 #include <limits>
+#include <optional>
 #include <set>
 #include <system_error>
 
@@ -37,23 +38,74 @@ std::string PartialPrefix(const fs::path& target) {
   return fmt::format(".{}.partial-", target.filename().string());
 }
 
-// Only a folder that we made, or an empty one, may be replaced.
-void CheckTarget(const fs::path& target) {
+// Everything below the folder that is not itself a folder, as relative names in order.
+std::vector<std::string> ListFiles(const fs::path& folder) {
+  std::vector<std::string> names;
+  std::error_code error;
+  for (auto entry = fs::recursive_directory_iterator(folder, error);
+       !error && entry != fs::recursive_directory_iterator(); entry.increment(error)) {
+    if (entry->is_directory() && !entry->is_symlink()) continue;
+    names.push_back(entry->path().lexically_relative(folder).string());
+  }
+  if (error) FailOutput(folder, "reading the folder", error.value());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+// What the manifest of an earlier result says about it.
+struct EarlierResult {
+  std::string verb;
+  std::set<std::string> outputs;
+};
+
+// Nothing when the folder has no manifest of ours.
+std::optional<EarlierResult> ReadEarlierResult(const fs::path& folder) {
+  std::error_code error;
+  if (!fs::is_regular_file(folder / kManifest, error)) return std::nullopt;
+  const auto json = nlohmann::json::parse(
+      ReadTextFile(folder / kManifest, std::numeric_limits<std::size_t>::max()), nullptr, false);
+  if (!json.is_object() || json.value("program", nlohmann::json()) != "kingpin") {
+    return std::nullopt;
+  }
+  EarlierResult result;
+  result.outputs.insert(kManifest);
+  if (const auto verb = json.find("verb"); verb != json.end() && verb->is_string()) {
+    result.verb = verb->get<std::string>();
+  }
+  if (const auto outputs = json.find("outputs"); outputs != json.end() && outputs->is_array()) {
+    for (const auto& name : *outputs) {
+      if (name.is_string()) result.outputs.insert(name.get<std::string>());
+    }
+  }
+  return result;
+}
+
+// Only an empty folder, or one in which everything was written by an earlier run of the same verb,
+// may be replaced.
+void CheckTarget(const fs::path& target, const std::string& verb) {
   std::error_code error;
   const fs::file_status status = fs::symlink_status(target, error);
   if (!fs::exists(status)) return;
-  const auto fail = [&target](const char* found) {
-    throw InputError(InputProblem{.file = target.string(),
-                                  .found = found,
-                                  .expected = "a new, an empty or an earlier result folder",
-                                  .suggestion = "choose another place with -o"});
+  const auto fail = [&](std::string found, const char* suggestion) {
+    throw InputError(InputProblem{
+        .file = target.string(),
+        .found = std::move(found),
+        .expected = fmt::format("a new or an empty folder, or an earlier result of '{}'", verb),
+        .suggestion = suggestion});
   };
-  if (fs::is_symlink(status)) fail("a symbolic link");
-  if (!fs::is_directory(status)) fail("a file");
-  const bool is_empty = fs::is_empty(target, error);
-  if (error) FailOutput(target, "reading the folder", error.value());
-  if (!is_empty && !fs::is_regular_file(target / kManifest, error)) {
-    fail("a folder with files that are not a result");
+  constexpr const char* kElsewhere = "choose another place with -o";
+  if (fs::is_symlink(status)) fail("a symbolic link", kElsewhere);
+  if (!fs::is_directory(status)) fail("a file", kElsewhere);
+  const std::vector<std::string> names = ListFiles(target);
+  if (names.empty()) return;
+  const std::optional<EarlierResult> earlier = ReadEarlierResult(target);
+  if (!earlier) fail("a folder with files that are not a result", kElsewhere);
+  if (earlier->verb != verb) fail(fmt::format("a result of '{}'", earlier->verb), kElsewhere);
+  for (const std::string& name : names) {
+    if (earlier->outputs.count(name) == 0) {
+      fail(fmt::format("'{}', which the earlier run did not write", name),
+           "move it away, or choose another place with -o");
+    }
   }
 }
 
@@ -75,7 +127,8 @@ void RemoveLeftovers(const fs::path& target) {
   for (const fs::path& leftover : leftovers) fs::remove_all(leftover, error);
 }
 
-void SyncTree(const fs::path& root) {
+// `shown` is named in messages instead of the hidden folder.
+void SyncTree(const fs::path& root, const fs::path& shown) {
   for (const fs::directory_entry& entry : fs::recursive_directory_iterator(root)) {
     if (entry.is_directory()) {
       SyncDirectory(entry.path());
@@ -85,7 +138,9 @@ void SyncTree(const fs::path& root) {
       const bool is_safe = ::fsync(descriptor) == 0 || errno == EINVAL || errno == ENOTSUP;
       const int reason = errno;
       ::close(descriptor);
-      if (!is_safe) FailOutput(entry.path(), "writing", reason);
+      if (!is_safe) {
+        FailOutput(shown / entry.path().lexically_relative(root), "writing", reason);
+      }
     }
   }
   SyncDirectory(root);
@@ -117,7 +172,8 @@ std::vector<fs::path> MakeCopyNames(const std::vector<fs::path>& files) {
 
 }  // namespace
 
-ResultDirectory::ResultDirectory(fs::path target) : target_(std::move(target)) {
+ResultDirectory::ResultDirectory(fs::path target, std::string verb)
+    : target_(std::move(target)), verb_(std::move(verb)) {
   if (!target_.has_filename()) target_ = target_.parent_path();  // a trailing slash
   if (!target_.has_filename() || target_.filename() == "." || target_.filename() == "..") {
     throw InputError(InputProblem{.file = "command line",
@@ -125,7 +181,7 @@ ResultDirectory::ResultDirectory(fs::path target) : target_(std::move(target)) {
                                   .found = fmt::format("'{}'", target_.string()),
                                   .expected = "a folder with a name of its own"});
   }
-  CheckTarget(target_);
+  CheckTarget(target_, verb_);
   MakeDirectories(target_.parent_path());
   RemoveLeftovers(target_);
   // Two results of one process may be under way; the number after the process tells them apart.
@@ -145,8 +201,9 @@ ResultDirectory::~ResultDirectory() {
 
 void ResultDirectory::WriteText(const fs::path& name, std::string_view text) {
   const fs::path path = partial_ / name;
-  MakeDirectories(path.parent_path());
-  OutputFile file(path);
+  const fs::path shown = target_ / name;
+  MakeDirectories(path.parent_path(), shown.parent_path());
+  OutputFile file(path, shown);
   file.Write(text);
   file.Close();
 }
@@ -156,8 +213,8 @@ void ResultDirectory::WriteJson(const fs::path& name, const nlohmann::ordered_js
 }
 
 void ResultDirectory::Commit() {
-  SyncTree(partial_);
-  CheckTarget(target_);  // it may have changed while we worked
+  SyncTree(partial_, target_);
+  CheckTarget(target_, verb_);  // it may have changed while we worked
   std::error_code error;
   if (!fs::exists(target_, error)) {
     if (::rename(partial_.c_str(), target_.c_str()) != 0) {
@@ -194,7 +251,7 @@ void WriteManifest(const RunManifest& manifest, ResultDirectory* results) {
   json["revision"] = version.revision;
   json["compiler"] = version.compiler;
   json["build_type"] = version.build_type;
-  json["verb"] = manifest.verb;
+  json["verb"] = results->verb();
   json["command_line"] = manifest.command_line;
   json["start"] = FormatTime(manifest.start);
   json["duration"] = {{"value", manifest.duration}, {"unit", "s"}};
@@ -221,6 +278,7 @@ void WriteManifest(const RunManifest& manifest, ResultDirectory* results) {
   }
   json["solver"] = nlohmann::ordered_json::object();
   for (const auto& [name, value] : manifest.solver) json["solver"][name] = value;
+  json["outputs"] = ListFiles(results->partial());
   results->WriteJson(kManifest, json);
 }
 

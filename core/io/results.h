@@ -26,24 +26,28 @@ namespace kingpin::io {
 /// one whole result. Without Commit(), also when an exception passes, the sibling is removed; one
 /// that a killed run left behind is removed by the next run of the same name.
 ///
-///     io::ResultDirectory results("results/c_segment");   // fails now, not after the work
+///     io::ResultDirectory results("results/c_segment", "study");  // fails now, not after the work
 ///     results.WriteText("signals.csv", io::FormatSignals(signals));
 ///     results.WriteJson("summary.json", summary);
 ///     io::WriteManifest(manifest, &results);
 ///     results.Commit();
 ///
-/// A folder that is there already is replaced only if it is empty or holds a `manifest.json`; any
-/// other is somebody's work and an InputError. Throws InputError for a place that cannot be used
-/// (permission, full disk) and RunError for a device that fails.
+/// A folder that is there already is replaced only if it is empty, or an earlier result of the same
+/// verb in which every file is one that the run wrote (`outputs` of its manifest); any other holds
+/// somebody's work and is an InputError. Throws InputError for a place that cannot be used
+/// (permission, full disk) and RunError for a device that fails. Messages name files where they
+/// will be, not where they are until Commit().
 class ResultDirectory {
  public:
-  explicit ResultDirectory(std::filesystem::path target);
+  ResultDirectory(std::filesystem::path target, std::string verb);
   ~ResultDirectory();
   ResultDirectory(const ResultDirectory&) = delete;
   ResultDirectory& operator=(const ResultDirectory&) = delete;
 
   /// Where the folder will be.
   const std::filesystem::path& target() const { return target_; }
+  /// What makes the result, e.g. `study`.
+  const std::string& verb() const { return verb_; }
   /// Where files go until Commit().
   const std::filesystem::path& partial() const { return partial_; }
 
@@ -56,13 +60,13 @@ class ResultDirectory {
 
  private:
   std::filesystem::path target_;
+  std::string verb_;
   std::filesystem::path partial_;
   bool is_committed_ = false;
 };
 
 /// What made a result: enough to make it again.
 struct RunManifest {
-  std::string verb;                           ///< `study`
   std::vector<std::string> command_line;      ///< as given, program first
   std::vector<std::filesystem::path> inputs;  ///< every file read (InputRecord::files)
   std::vector<Override> overrides;            ///< of --set
@@ -76,8 +80,9 @@ struct RunManifest {
 };
 
 /// Copies the inputs to `inputs/` (folders above their common one are left out) and writes
-/// `manifest.json` with their SHA-256, the version, revision and compiler. Throws as WriteText, and
-/// InputError when an input has gone.
+/// `manifest.json` with their SHA-256, the version, revision and compiler, and the list of all
+/// files written: the last thing to do before Commit(). Throws as WriteText, and InputError when an
+/// input has gone.
 void WriteManifest(const RunManifest& manifest, ResultDirectory* results);
 
 }  // namespace kingpin::io

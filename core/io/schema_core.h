@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/io/error.h"
 #include "core/io/input_record.h"
 #include "core/io/units.h"
 #include "core/io/yaml_document.h"
@@ -139,6 +140,10 @@ class Check {
   /// `key` is a path below the mapping that is checked; its file and line are looked up.
   virtual void Fail(std::string_view key, std::string found, std::string expected,
                     std::string suggestion = {}) = 0;
+
+  /// An error of what the mapping describes (a model that cannot be made, a file it names). Where
+  /// the error names no file, its key is taken below `key`, and file and line are looked up.
+  virtual void Add(std::string_view key, const InputError& error) = 0;
 };
 
 class SchemaCore {

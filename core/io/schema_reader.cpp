@@ -97,14 +97,27 @@ class Reader {
         : reader_(reader), prefix_(std::move(prefix)) {}
     void Fail(std::string_view key, std::string found, std::string expected,
               std::string suggestion) override {
-      const std::string path = prefix_.empty() ? std::string(key)
-                               : key.empty()   ? prefix_
-                                               : prefix_ + "." + std::string(key);
-      const Place place = reader_->FindPlace(path);
-      reader_->Note(place, path, std::move(found), std::move(expected), std::move(suggestion));
+      const std::string path = Join(prefix_, key);
+      reader_->Note(reader_->FindPlace(path), path, std::move(found), std::move(expected),
+                    std::move(suggestion));
+    }
+    void Add(std::string_view key, const InputError& error) override {
+      for (InputProblem problem : error.problems()) {
+        if (problem.file.empty()) {
+          problem.key = Join(Join(prefix_, key), problem.key);
+          const Place place = reader_->FindPlace(problem.key);
+          problem.file = place.file;
+          problem.line = place.line;
+        }
+        if (reader_->problems_.size() < kMostProblems) reader_->problems_.push_back(problem);
+      }
     }
 
    private:
+    static std::string Join(const std::string& prefix, std::string_view key) {
+      return key.empty() ? prefix : Below(prefix, key);
+    }
+
     Reader* reader_;
     std::string prefix_;
   };

@@ -224,6 +224,13 @@ double GetVariable(const Parameters<double>& design, const DesignVariable& varia
   return CurveOf(design, variable.kind).f[variable.index];
 }
 
+CurveTable MergeCurves(const CurveTable& general, const CurveTable& special) {
+  CurveTable merged = general;
+  if (special.assistance) merged.assistance = special.assistance;
+  if (special.longitudinal) merged.longitudinal = special.longitudinal;
+  return merged;
+}
+
 void SetScalars(Parameters<double>& design, const DesignValues& values) {
   const auto fields = ScalarFields<double>();
   for (int i = 0; i < kScalarFieldCount; ++i) {

@@ -78,6 +78,9 @@ class DesignSpace {
 /// Value of a variable in a design.
 double GetVariable(const planar::Parameters<double>& design, const DesignVariable& variable);
 
+/// The bounds of `special`, and those of `general` where it has none.
+CurveTable MergeCurves(const CurveTable& general, const CurveTable& special);
+
 /// Sets the scalars that are given.
 void SetScalars(planar::Parameters<double>& design, const DesignValues& values);
 

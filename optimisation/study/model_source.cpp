@@ -2,8 +2,10 @@
 
 #include "core/io/csv.h"
 #include "core/io/error.h"
+#include "core/io/units.h"
 #include "models/planar/car_reduction.h"
 #include "models/planar/paper_set.h"
+#include "optimisation/study/design_space.h"
 
 namespace kingpin::study {
 
@@ -16,7 +18,9 @@ planar::Excitation MakeExcitation(const LoadCase& load_case) {
                           "one, the longitudinal force", ""});
   }
   const io::Signals::Channel& force = signals.channels.front();
-  if (!force.si_unit.empty() && force.si_unit != "N") {
+  // The values are SI whatever unit they were written in.
+  if (!force.unit.empty() &&
+      !io::IsUsableAs(io::ParseUnit(force.unit).dimension, io::ParseUnit("N").dimension)) {
     throw io::InputError({load_case.history.string(), 2, force.name, "unit '" + force.unit + "'",
                           "a force, e.g. N or kN", ""});
   }
@@ -40,6 +44,16 @@ LoadedModel LoadModel(const ModelSource& source, const std::vector<LoadCase>& lo
     model.loads.push_back({load_case.name, load_case.weight, MakeExcitation(load_case)});
   }
   return model;
+}
+
+planar::Parameters<double> MakeInitialDesign(const Case& c, const LoadedModel& model) {
+  planar::Parameters<double> initial = model.parameters;
+  DesignValues starts{};
+  for (int i = 0; i < kScalarFieldCount; ++i) {
+    if (c.variables[i]) starts[i] = c.variables[i]->start;
+  }
+  SetScalars(initial, starts);
+  return initial;
 }
 
 }  // namespace kingpin::study

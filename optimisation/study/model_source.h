@@ -23,4 +23,7 @@ struct LoadedModel {
 /// Throws io::InputError.
 LoadedModel LoadModel(const ModelSource& source, const std::vector<LoadCase>& load_cases);
 
+/// The design that a case begins with: the model with the starts of its variables.
+planar::Parameters<double> MakeInitialDesign(const Case& c, const LoadedModel& model);
+
 }  // namespace kingpin::study

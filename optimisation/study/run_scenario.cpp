@@ -42,12 +42,15 @@ planar::History Run(const Scenario& scenario, const planar::Parameters<double>& 
   return planar::Simulate(parameters, excitation, options);
 }
 
-nlohmann::ordered_json MakeExtremes(const measures::Extremes& e, const char* unit) {
-  return {{"unit", unit},
-          {"peak", e.peak},
-          {"time_of_peak", e.time_of_peak},
-          {"peak_to_peak", e.peak_to_peak},
-          {"impulse", e.impulse}};
+nlohmann::ordered_json MakeValue(double value, const std::string& unit) {
+  return {{"value", value}, {"unit", unit}};
+}
+
+nlohmann::ordered_json MakeExtremes(const measures::Extremes& e, const std::string& unit) {
+  return {{"peak", MakeValue(e.peak, unit)},
+          {"time_of_peak", MakeValue(e.time_of_peak, "s")},
+          {"peak_to_peak", MakeValue(e.peak_to_peak, unit)},
+          {"impulse", MakeValue(e.impulse, unit + " s")}};
 }
 
 }  // namespace
@@ -85,14 +88,13 @@ ScenarioResult RunScenario(const Scenario& scenario) {
   json["torsion_torque"] = MakeExtremes(*companions.torsion_torque, "N m");
   json["rack_force"] = MakeExtremes(*companions.rack_force, "N");
   json["tie_rod_force"] = MakeExtremes(*companions.tie_rod_force, "N");
-  json["rim_acceleration"] = {{"unit", "m/s^2"},
-                              {"rmq_weighted", companions.weighted.rmq},
-                              {"vdv_weighted", companions.weighted.vdv},
-                              {"short_decay_time", companions.short_decay_time}};
-  json["road_feel_gain"] = planar::CalcRoadFeelGain(model.parameters);
-  json["steering_ratio"] = CalcSteeringRatio(model.parameters);
+  json["rim_acceleration"] = {{"rmq_weighted", MakeValue(companions.weighted.rmq, "m/s^2")},
+                              {"vdv_weighted", MakeValue(companions.weighted.vdv, "m/s^1.75")},
+                              {"short_decay_time", MakeValue(companions.short_decay_time, "s")}};
+  json["road_feel_gain"] = MakeValue(planar::CalcRoadFeelGain(model.parameters), "N m/(N m)");
+  json["steering_ratio"] = MakeValue(CalcSteeringRatio(model.parameters), "rad/rad");
   const double residual = history.CalcEnergyResidual();
-  json["energy_residual"] = residual;
+  json["energy_residual"] = MakeValue(residual, "J/J");
   result.text += fmt::format(
       "  torsion torque peak-to-peak {:.4g} N m, tie-rod force peak {:.4g} N, rack force peak "
       "{:.4g} N\n"

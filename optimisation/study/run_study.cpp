@@ -34,13 +34,6 @@ struct CaseContext {
   std::vector<QuantityLimit> limits;
 };
 
-CurveTable MergeCurves(const CurveTable& general, const CurveTable& special) {
-  CurveTable merged = general;
-  if (special.assistance) merged.assistance = special.assistance;
-  if (special.longitudinal) merged.longitudinal = special.longitudinal;
-  return merged;
-}
-
 DesignResult MakeDesign(const std::string& name, const Parameters<double>& parameters,
                         DesignEvaluator& evaluator) {
   DesignResult design;
@@ -56,16 +49,6 @@ void Compare(DesignResult& design, const DesignResult& reference,
              const std::array<double, 5>& weights) {
   design.relative_to = reference.name;
   design.sum_of_ratios = measures::CalcObjective(design.gammas, reference.gammas, weights);
-}
-
-Parameters<double> MakeInitial(const Case& c, const LoadedModel& model) {
-  Parameters<double> initial = model.parameters;
-  DesignValues starts{};
-  for (int i = 0; i < kScalarFieldCount; ++i) {
-    if (c.variables[i]) starts[i] = c.variables[i]->start;
-  }
-  SetScalars(initial, starts);
-  return initial;
 }
 
 /// Random points in the bounds of a space, monotone conditions aside (the search repairs those).
@@ -389,7 +372,7 @@ class CaseRun {
     result_.conventions = evaluator_.plan().conventions();
     result_.loads = model_.loads;
     result_.designs.reserve(c.stages.size() + 1);
-    DesignResult initial = MakeDesign("initial", MakeInitial(c, model_), evaluator_);
+    DesignResult initial = MakeDesign("initial", MakeInitialDesign(c, model_), evaluator_);
     for (const double gamma : initial.gammas) {
       if (!std::isfinite(gamma)) {
         throw io::RunError(

@@ -1,12 +1,11 @@
 #include "optimisation/study/study_schema.h"
 
-#include <algorithm>
 #include <map>
 
 #include "core/io/csv.h"
-#include "core/io/nearest_name.h"
 #include "models/parameters/car_schema.h"
 #include "models/planar/car_mode_schema.h"
+#include "optimisation/study/study_check.h"
 
 namespace kingpin::study {
 namespace {
@@ -388,51 +387,8 @@ void AddSimulationFields(Schema<T>& s, Get get) {
       .Optional();
 }
 
-[[noreturn]] void Reject(const std::filesystem::path& path, const std::string& key,
-                         const std::string& found, const std::string& expected,
-                         const std::string& suggestion = "") {
-  throw io::InputError({path.string(), 0, key, found, expected, suggestion});
-}
-
 std::filesystem::path FileIn(const std::filesystem::path& path, const char* name) {
   return std::filesystem::is_directory(path) ? path / name : path;
-}
-
-void InheritFrom(const Case& defaults, Case& c) {
-  if (c.load_cases.empty()) c.load_cases = defaults.load_cases;
-  if (c.constraints.empty()) c.constraints = defaults.constraints;
-  if (c.stages.empty()) c.stages = defaults.stages;
-  if (!c.pareto) c.pareto = defaults.pareto;
-  for (int i = 0; i < kScalarFieldCount; ++i) {
-    if (!c.variables[i]) c.variables[i] = defaults.variables[i];
-  }
-  if (!c.curves.assistance) c.curves.assistance = defaults.curves.assistance;
-  if (!c.curves.longitudinal) c.curves.longitudinal = defaults.curves.longitudinal;
-}
-
-/// Every stage name is unique, and every reference names an earlier stage.
-void CheckStages(const std::filesystem::path& path, const Case& c, const std::string& key) {
-  std::vector<std::string> known{"initial"};
-  const auto require = [&](const std::string& name, const std::string& where) {
-    if (std::find(known.begin(), known.end(), name) == known.end()) {
-      Reject(path, where, "'" + name + "'", "the name of an earlier stage of the case",
-             io::SuggestName(name, known, "stages"));
-    }
-  };
-  for (std::size_t i = 0; i < c.stages.size(); ++i) {
-    const Stage& stage = c.stages[i];
-    const std::string here = key + ".stages[" + std::to_string(i) + "]";
-    if (std::find(known.begin(), known.end(), stage.name) != known.end()) {
-      Reject(path, here + ".name", "'" + stage.name + "' a second time", "a unique name");
-    }
-    require(stage.start, here + ".start");
-    for (const std::string& name : stage.also_from) require(name, here + ".also_from");
-    if (!stage.relative_to.empty()) require(stage.relative_to, here + ".relative_to");
-    known.push_back(stage.name);
-  }
-  for (std::size_t i = 0; i < c.printed.size(); ++i) {
-    require(c.printed[i].stage, key + ".printed[" + std::to_string(i) + "].stage");
-  }
 }
 
 }  // namespace
@@ -476,6 +432,7 @@ const Schema<StudyFile>& StudySchema() {
          "cases", [](StudyFile & file) -> auto& { return file.definition.cases; }, CaseSchema(),
          "the models to study")
         .Count(1);
+    s.Check(CheckStudy);
     return s;
   }();
   return schema;
@@ -503,6 +460,7 @@ const Schema<Scenario>& ScenarioSchema() {
         .Positive()
         .Max(1e-2)
         .Optional();
+    s.Check(CheckScenario);
     return s;
   }();
   return schema;
@@ -511,33 +469,12 @@ const Schema<Scenario>& ScenarioSchema() {
 StudyDefinition ReadStudy(const std::filesystem::path& path, const io::ReadOptions& options,
                           io::InputRecord* record) {
   const std::filesystem::path file = FileIn(path, "study.yaml");
-  StudyFile read = io::ReadFile(StudySchema(), file, options, record);
-  StudyDefinition study = std::move(read.definition);
-  for (std::size_t i = 0; i < study.cases.size(); ++i) {
-    Case& c = study.cases[i];
-    InheritFrom(read.defaults, c);
-    const std::string key = "cases[" + std::to_string(i) + "]";
-    for (std::size_t j = 0; j < i; ++j) {
-      if (study.cases[j].name == c.name) {
-        Reject(file, key + ".name", "'" + c.name + "' a second time", "a unique name");
-      }
-    }
-    if (c.model.car && c.load_cases.empty()) {
-      Reject(file, key + ".load_cases", "nothing", "at least one road force");
-    }
-    CheckStages(file, c, key);
-  }
-  return study;
+  return MakeDefinition(io::ReadFile(StudySchema(), file, options, record));
 }
 
 Scenario ReadScenario(const std::filesystem::path& path, const io::ReadOptions& options,
                       io::InputRecord* record) {
-  const std::filesystem::path file = FileIn(path, "scenario.yaml");
-  Scenario scenario = io::ReadFile(ScenarioSchema(), file, options, record);
-  if (scenario.model.car && scenario.load_cases.empty()) {
-    Reject(file, "load_cases", "nothing", "one road force");
-  }
-  return scenario;
+  return io::ReadFile(ScenarioSchema(), FileIn(path, "scenario.yaml"), options, record);
 }
 
 void AddInputKinds(io::InputKinds* kinds) {

@@ -8,16 +8,10 @@
 #include "core/io/schema.h"
 #include "optimisation/study/scenario.h"
 #include "optimisation/study/study_definition.h"
+#include "optimisation/study/study_file.h"
 
 /// Reading of study and scenario files.
 namespace kingpin::study {
-
-/// A study file as written: what the cases leave out stands at its top.
-struct StudyFile {
-  StudyDefinition definition;
-  Case
-      defaults;  ///< load cases, variables, curves, constraints, stages, Pareto front for all cases
-};
 
 const io::Schema<StudyFile>& StudySchema();
 const io::Schema<Scenario>& ScenarioSchema();

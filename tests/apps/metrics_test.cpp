@@ -200,7 +200,7 @@ TEST_F(Metrics, UnusableInputEndsWithStatus2AndAMessage) {
       {good + " --channel rim --weighting Wx", "expected one of Wb, Wc"},
       {good + " --channel rim --from 3", "the record lasts from 0 to 0.01 s"},
       {good + " --channel rim --step 1e-12", "at most ten million steps"},
-      {good + " --channel rim --set a=1", "no --set"},
+      {good + " --channel rim --set a=1", "found '--set', expected an option of 'metrics'"},
       {Write("empty.csv", ""), "empty.csv"},
       {Write("one_row.csv", head + "0,1\n"), "one_row.csv"},
       {Write("backwards.csv", head + "0,1\n0.2,1\n0.1,1\n"), "backwards.csv:5"},

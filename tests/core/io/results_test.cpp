@@ -53,7 +53,7 @@ class Results : public ::testing::Test {
   }
 
   void WriteResult(const std::string& content) const {
-    ResultDirectory results(folder_ / "run");
+    ResultDirectory results(folder_ / "run", "study");
     results.WriteText("signals.csv", content);
     WriteManifest(RunManifest{}, &results);
     results.Commit();
@@ -73,7 +73,7 @@ std::string MessageOf(F&& function) {
 }
 
 TEST_F(Results, AFolderAppearsOnlyWhenItIsComplete) {
-  ResultDirectory results(folder_ / "deep" / "run");
+  ResultDirectory results(folder_ / "deep" / "run", "study");
   results.WriteText("stages/one/a.txt", "a");
   EXPECT_FALSE(fs::exists(folder_ / "deep" / "run"));
   results.Commit();
@@ -83,7 +83,7 @@ TEST_F(Results, AFolderAppearsOnlyWhenItIsComplete) {
 
 TEST_F(Results, AnAbandonedRunLeavesNothing) {
   try {
-    ResultDirectory results(folder_ / "run");
+    ResultDirectory results(folder_ / "run", "study");
     results.WriteText("a.txt", "a");
     throw std::runtime_error("the simulation diverged");
   } catch (const std::runtime_error&) {
@@ -92,41 +92,104 @@ TEST_F(Results, AnAbandonedRunLeavesNothing) {
 }
 
 TEST_F(Results, ANewResultReplacesTheOldOneWhole) {
-  WriteResult("old");
-  std::ofstream(folder_ / "run" / "left_over.txt") << "from the old run";
+  {
+    ResultDirectory results(folder_ / "run", "study");
+    results.WriteText("signals.csv", "old");
+    results.WriteText("stages/left_over.txt", "from the old run");
+    WriteManifest(RunManifest{}, &results);
+    results.Commit();
+  }
   WriteResult("new");
   EXPECT_EQ(ReadTextFile(folder_ / "run" / "signals.csv"), "new");
-  EXPECT_FALSE(fs::exists(folder_ / "run" / "left_over.txt"));
+  EXPECT_FALSE(fs::exists(folder_ / "run" / "stages"));
   EXPECT_EQ(Names(), std::set<std::string>{"run"});
 }
 
 TEST_F(Results, SomebodysFilesAreNeverReplaced) {
   fs::create_directory(folder_ / "run");
   std::ofstream(folder_ / "run" / "thesis.tex") << "years of work";
-  EXPECT_THAT(MessageOf<InputError>([this] { ResultDirectory results(folder_ / "run"); }),
-              HasSubstr("found a folder with files that are not a result, expected a new, an empty "
-                        "or an earlier result folder; choose another place with -o"));
+  EXPECT_THAT(MessageOf<InputError>([this] { ResultDirectory results(folder_ / "run", "study"); }),
+              HasSubstr("found a folder with files that are not a result, expected a new or an "
+                        "empty folder, or an earlier result of 'study'; choose another place with "
+                        "-o"));
   EXPECT_EQ(ReadTextFile(folder_ / "run" / "thesis.tex"), "years of work");
+  std::ofstream(folder_ / "run" / "manifest.json") << R"({"program": "other", "verb": "study"})";
+  EXPECT_THAT(MessageOf<InputError>([this] { ResultDirectory results(folder_ / "run", "study"); }),
+              HasSubstr("found a folder with files that are not a result"));
   std::ofstream(folder_ / "file") << "x";
-  EXPECT_THAT(MessageOf<InputError>([this] { ResultDirectory results(folder_ / "file"); }),
+  EXPECT_THAT(MessageOf<InputError>([this] { ResultDirectory results(folder_ / "file", "study"); }),
               HasSubstr("found a file, expected"));
   fs::create_directory_symlink(folder_, folder_ / "link");
-  EXPECT_THAT(MessageOf<InputError>([this] { ResultDirectory results(folder_ / "link"); }),
+  EXPECT_THAT(MessageOf<InputError>([this] { ResultDirectory results(folder_ / "link", "study"); }),
               HasSubstr("found a symbolic link"));
   for (const char* name : {"", ".", "..", "/"}) {
-    EXPECT_THAT(MessageOf<InputError>([name] { ResultDirectory results{fs::path(name)}; }),
+    EXPECT_THAT(MessageOf<InputError>([name] { ResultDirectory results(fs::path(name), "study"); }),
                 HasSubstr("a folder with a name of its own"))
         << name;
   }
 }
 
+// Also inside a result: notes, a plot, a link that were put beside what a run wrote.
+TEST_F(Results, SomebodysFilesInAResultAreNeverReplaced) {
+  WriteResult("old");
+  fs::create_directories(folder_ / "run" / "plots");
+  for (const char* name : {"notes.txt", "plots/mine.png", ".hidden"}) {
+    const fs::path file = folder_ / "run" / name;
+    std::ofstream(file) << "mine";
+    EXPECT_THAT(MessageOf<InputError>([this] { WriteResult("new"); }),
+                HasSubstr(std::string("found '") + name +
+                          "', which the earlier run did not write, expected a new or an empty "
+                          "folder, or an earlier result of 'study'; move it away, or choose "
+                          "another place with -o"));
+    EXPECT_EQ(ReadTextFile(file), "mine");
+    EXPECT_EQ(ReadTextFile(folder_ / "run" / "signals.csv"), "old");
+    fs::remove(file);
+  }
+  fs::create_directory_symlink("/", folder_ / "run" / "link");
+  EXPECT_THAT(MessageOf<InputError>([this] { WriteResult("new"); }), HasSubstr("found 'link'"));
+  fs::remove(folder_ / "run" / "link");
+  WriteResult("new");
+  EXPECT_EQ(ReadTextFile(folder_ / "run" / "signals.csv"), "new");
+}
+
+// A file that appears while the run is under way is kept, too.
+TEST_F(Results, SomebodysFilesThatComeDuringTheRunAreKept) {
+  WriteResult("old");
+  ResultDirectory results(folder_ / "run", "study");
+  WriteManifest(RunManifest{}, &results);
+  std::ofstream(folder_ / "run" / "notes.txt") << "mine";
+  EXPECT_THAT(MessageOf<InputError>([&] { results.Commit(); }), HasSubstr("found 'notes.txt'"));
+  EXPECT_EQ(ReadTextFile(folder_ / "run" / "notes.txt"), "mine");
+}
+
+TEST_F(Results, OnlyAResultOfTheSameVerbIsReplaced) {
+  WriteResult("old");
+  EXPECT_THAT(
+      MessageOf<InputError>([this] { ResultDirectory results(folder_ / "run", "simulate"); }),
+      HasSubstr("found a result of 'study', expected a new or an empty folder, or an earlier "
+                "result of 'simulate'; choose another place with -o"));
+  EXPECT_EQ(ReadTextFile(folder_ / "run" / "signals.csv"), "old");
+}
+
+TEST_F(Results, MessagesNameTheFileWhereItWillBe) {
+  ResultDirectory results(folder_ / "run", "study");
+  results.WriteText("a", "x");
+  EXPECT_THAT(MessageOf<InputError>([&] { results.WriteText("a/b", "x"); }),
+              testing::StartsWith((folder_ / "run" / "a").string() + ": found"));
+  fs::create_directory(folder_ / "locked");
+  EXPECT_THAT(MessageOf<InputError>(
+                  [&] { WriteFileAtomically(folder_ / "locked" / std::string(250, 'n'), "x"); }),
+              testing::StartsWith((folder_ / "locked" / "nnn").string()));
+}
+
 TEST_F(Results, PlacesThatCannotBeWrittenAreUnusableInput) {
-  EXPECT_THAT(MessageOf<InputError>([] { ResultDirectory results("/proc/nowhere/run"); }),
+  EXPECT_THAT(MessageOf<InputError>([] { ResultDirectory results("/proc/nowhere/run", "study"); }),
               HasSubstr("making the folder failed (No such file or directory), expected a place "
                         "that can be written to; choose another place with -o"));
   std::ofstream(folder_ / "file") << "x";
-  EXPECT_THAT(MessageOf<InputError>([this] { ResultDirectory results(folder_ / "file" / "run"); }),
-              HasSubstr("making the folder failed (Not a directory)"));
+  EXPECT_THAT(
+      MessageOf<InputError>([this] { ResultDirectory results(folder_ / "file" / "run", "study"); }),
+      HasSubstr("making the folder failed (Not a directory)"));
   EXPECT_THAT(MessageOf<InputError>([this] { WriteFileAtomically(folder_, "x"); }),
               HasSubstr("creating the file failed (Is a directory)"));
 }
@@ -154,7 +217,7 @@ TEST_F(Results, ADiskThatFillsUpLeavesTheOldResult) {
     ::setrlimit(RLIMIT_FSIZE, &limit);
     int status = 0;
     try {
-      ResultDirectory results(folder_ / "run");
+      ResultDirectory results(folder_ / "run", "study");
       results.WriteText("signals.csv", std::string(300000, 'x'));
       results.Commit();
     } catch (const InputError& error) {
@@ -177,7 +240,7 @@ TEST_F(Results, AKilledRunLeavesTheOldResultAndTheNextOneCleansUp) {
   const pid_t child = ::fork();
   ASSERT_GE(child, 0);
   if (child == 0) {
-    ResultDirectory results(folder_ / "run");
+    ResultDirectory results(folder_ / "run", "study");
     for (int i = 0;; ++i) {
       results.WriteText("signals.csv", std::string(100000, 'x'));
       if (i == 0) (void)!::write(pipe_ends[1], "x", 1);
@@ -217,13 +280,15 @@ TEST_F(Results, AReaderSeesAWholeResultAtAnyTime) {
 }
 
 TEST_F(Results, TwoRunsAtOnceDoNotMix) {
-  ResultDirectory first(folder_ / "run");
-  ResultDirectory second(folder_ / "run");
-  first.WriteText("manifest.json", "first");
-  second.WriteText("manifest.json", "second");
+  ResultDirectory first(folder_ / "run", "study");
+  ResultDirectory second(folder_ / "run", "study");
+  for (ResultDirectory* results : {&first, &second}) {
+    results->WriteText("signals.csv", results == &first ? "first" : "second");
+    WriteManifest(RunManifest{}, results);
+  }
   first.Commit();
   second.Commit();
-  EXPECT_EQ(ReadTextFile(folder_ / "run" / "manifest.json"), "second");
+  EXPECT_EQ(ReadTextFile(folder_ / "run" / "signals.csv"), "second");
   EXPECT_EQ(Names(), std::set<std::string>{"run"});
 }
 
@@ -232,7 +297,6 @@ TEST_F(Results, TheManifestNamesTheExactInputs) {
   std::ofstream(folder_ / "cars" / "a" / "car.yaml") << "abc";
   std::ofstream(folder_ / "study.yaml") << "study";
   RunManifest manifest;
-  manifest.verb = "study";
   manifest.command_line = {"kingpin", "study", "study.yaml"};
   manifest.inputs = {folder_ / "study.yaml", folder_ / "cars" / "a" / "car.yaml",
                      folder_ / "study.yaml"};
@@ -242,10 +306,13 @@ TEST_F(Results, TheManifestNamesTheExactInputs) {
   manifest.instruction_set = "AVX2";
   manifest.solver = {{"steps", 1000.0}};
   manifest.duration = 0.1 + 0.2;
-  ResultDirectory results(folder_ / "run");
+  ResultDirectory results(folder_ / "run", "study");
   WriteManifest(manifest, &results);
   results.Commit();
   const auto json = nlohmann::json::parse(ReadTextFile(folder_ / "run" / "manifest.json"));
+  EXPECT_EQ(json["verb"], "study");
+  EXPECT_EQ(json["outputs"],
+            (std::vector<std::string>{"inputs/cars/a/car.yaml", "inputs/study.yaml"}));
   EXPECT_EQ(json["inputs"].size(), 2u);
   EXPECT_EQ(json["inputs"][1]["sha256"],
             "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
@@ -261,7 +328,7 @@ TEST_F(Results, TheManifestNamesTheExactInputs) {
 }
 
 TEST_F(Results, NumbersInJsonReadBackExactlyAndNanIsNull) {
-  ResultDirectory results(folder_ / "run");
+  ResultDirectory results(folder_ / "run", "study");
   nlohmann::ordered_json json;
   json["third"] = 1.0 / 3.0;
   json["nan"] = std::nan("");
