@@ -62,7 +62,8 @@ class Assembler {
     for (const Link& link : model_.links) {
       if (CountPositions(link.kind) >= 4) q[link.q + CountPositions(link.kind) - 4] = 1;
     }
-    Compile(model_, q);
+    CompileTopology(model_);
+    CompileElimination(model_, q);
     return std::move(model_);
   }
 

@@ -62,17 +62,16 @@ void SolveSingular(const Model& model, const Eigen::MatrixXd& K, const Eigen::Ve
 
 }  // namespace
 
-void SolveAccelerations(const Model& model, std::span<const double> drive_acceleration,
-                        Workspace<double>& w, std::span<double> acceleration,
-                        std::span<double> reaction) {
-  AssembleEquations(model, drive_acceleration.data(), w);
+void FactoriseAndSolve(const Model& model, Workspace<double>& w, std::span<double> acceleration,
+                       std::span<double> reaction) {
   const int nv = model.velocities;
   w.kept_k = w.k;
   model.pattern.Factorise(w.k.data());
   if (!PivotsAreSafe(model, w)) {
     Eigen::VectorXd right(nv + model.rows);
-    for (int i = 0; i < nv + model.rows; ++i)
+    for (int i = 0; i < nv + model.rows; ++i) {
       right[i] = w.kept_k[model.pattern.GetRightSideSlot(i)];
+    }
     w.k = w.kept_k;
     SolveSingular(model, ExpandMatrix(model, w), right, acceleration, reaction);
     return;
@@ -80,6 +79,13 @@ void SolveAccelerations(const Model& model, std::span<const double> drive_accele
   model.pattern.BackSubstitute(w.k.data(), w.x.data());
   for (int i = 0; i < nv; ++i) acceleration[i] = w.x[model.pattern.position(i)];
   for (int r = 0; r < model.rows; ++r) reaction[r] = -w.x[model.pattern.position(nv + r)];
+}
+
+void SolveAccelerations(const Model& model, std::span<const double> drive_acceleration,
+                        Workspace<double>& w, std::span<double> acceleration,
+                        std::span<double> reaction) {
+  AssembleEquations(model, drive_acceleration.data(), w);
+  FactoriseAndSolve(model, w, acceleration, reaction);
 }
 
 }  // namespace kingpin::mechanism

@@ -21,4 +21,9 @@ void SolveAccelerations(const Model& model, std::span<const double> drive_accele
                         Workspace<double>& w, std::span<double> acceleration,
                         std::span<double> reaction);
 
+/// Factorises the assembled equations in w.k and solves them, in the dense way if pivots turn out
+/// unsafe.
+void FactoriseAndSolve(const Model& model, Workspace<double>& w, std::span<double> acceleration,
+                       std::span<double> reaction);
+
 }  // namespace kingpin::mechanism

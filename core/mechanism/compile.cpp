@@ -113,6 +113,22 @@ void SetSlots(Model& model) {
   }
 }
 
+// Every motion of the tree must move something that has inertia.
+void CheckMass(const Model& model, const Eigen::MatrixXd& K) {
+  const int nv = model.velocities;
+  Eigen::MatrixXd M = K.topLeftCorner(nv, nv);
+  // leaves first, as the elimination goes: the pivot of a coordinate is the inertia that is left to
+  // it when the links it carries may move freely
+  for (int i = nv - 1; i >= 0; --i) {
+    if (!(M(i, i) > 1e-12 * K(i, i)) || !(K(i, i) > 0)) {
+      throw std::invalid_argument(fmt::format(
+          "nothing that link '{}' carries has inertia along its coordinate {}",
+          model.links[model.dof_link[i]].name, i - model.links[model.dof_link[i]].v + 1));
+    }
+    M.topLeftCorner(i, i) -= M.col(i).head(i) * M.row(i).head(i) / M(i, i);
+  }
+}
+
 // Units for each unknown in which the matrix has entries near one: coordinates to unit inertia,
 // rows to a gradient of unit length in these units.
 Eigen::VectorXd CalcScale(const Model& model, const Eigen::MatrixXd& K) {
@@ -128,9 +144,13 @@ Eigen::VectorXd CalcScale(const Model& model, const Eigen::MatrixXd& K) {
 
 }  // namespace
 
-void Compile(Model& model, std::span<const double> q) {
+void CompileTopology(Model& model) {
   SetTree(model);
   SetSupports(model);
+  model.redundant.assign(model.rows, 0);
+}
+
+void CompileElimination(Model& model, std::span<const double> q) {
   const std::vector<std::pair<int, int>> entries = ListEntries(model);
   const int n = model.velocities + model.rows;
   model.redundant.assign(model.rows, 0);
@@ -154,15 +174,7 @@ void Compile(Model& model, std::span<const double> q) {
       MoveOnConstraints(model, direction, state);
     }
     Eigen::MatrixXd K = CalcEquationMatrix(model, state);
-    if (s == 0) {
-      for (int i = 0; i < model.velocities; ++i) {
-        if (!(K(i, i) > 0)) {
-          throw std::invalid_argument(fmt::format(
-              "nothing has inertia along coordinate {} of link '{}'",
-              i - model.links[model.dof_link[i]].v, model.links[model.dof_link[i]].name));
-        }
-      }
-    }
+    if (s == 0) CheckMass(model, K);
     if (s == 0) scale = CalcScale(model, K);
     samples.push_back(scale.asDiagonal() * K * scale.asDiagonal());
   }

@@ -6,14 +6,16 @@
 
 namespace kingpin::mechanism {
 
-/// Fills in the derived arrays of a model whose links, closures and names are set: supports, slots,
-/// the elimination order and the redundant rows.
+/// Fills in what follows from the links and closures alone: parents of coordinates, supports of
+/// rows. Enough for kinematics, residuals and assembly.
+void CompileTopology(Model& model);
+
+/// Chooses the order of elimination and finds the redundant rows. After CompileTopology.
 ///
 /// @param q an assembled position: redundancy is a property of the mechanism where it can be, not
 /// of a position that
 ///     breaks its loops. States around it, on the constraints, are sampled from a fixed seed.
-/// @throws std::invalid_argument if the mass matrix is singular in q; the message names the
-/// coordinate
-void Compile(Model& model, std::span<const double> q);
+/// @throws std::invalid_argument if the mass matrix is singular in q; the message names the link
+void CompileElimination(Model& model, std::span<const double> q);
 
 }  // namespace kingpin::mechanism

@@ -73,6 +73,15 @@ void MovePositions(const Model& model, std::span<const double> v, std::span<doub
   }
 }
 
+void NormaliseQuaternions(const Model& model, std::span<double> q) {
+  for (const Link& link : model.links) {
+    if (CountPositions(link.kind) < 4) continue;
+    double* e = &q[link.q + CountPositions(link.kind) - 4];
+    const double scale = 1 / std::sqrt(e[0] * e[0] + e[1] * e[1] + e[2] * e[2] + e[3] * e[3]);
+    for (int i = 0; i < 4; ++i) e[i] *= scale;
+  }
+}
+
 Eigen::MatrixXd CalcEquationMatrix(const Model& model, std::span<const double> q) {
   Workspace<double> w(model);
   UpdateAtRest(model, q, w);

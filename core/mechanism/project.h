@@ -12,6 +12,9 @@ namespace kingpin::mechanism {
 /// the exponential map, which keeps quaternions on the unit sphere.
 void MovePositions(const Model& model, std::span<const double> v, std::span<double> q);
 
+/// Brings the quaternions in q back to unit length.
+void NormaliseQuaternions(const Model& model, std::span<double> q);
+
 /// [M, D; Dᵀ, 0] in q as a dense matrix, all rows in.
 Eigen::MatrixXd CalcEquationMatrix(const Model& model, std::span<const double> q);
 

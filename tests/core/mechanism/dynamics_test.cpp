@@ -117,7 +117,8 @@ TEST(Dynamics, MassMatrixAndBiasAreThoseOfTheTraceForm) {
   for (int trial = 0; trial < 30; ++trial) {
     Model model = random.MakeTree(1 + trial, kAllKinds);
     const std::vector<double> q = random.MakePositions(model), v = random.MakeVelocities(model);
-    Compile(model, q);
+    CompileTopology(model);
+    CompileElimination(model, q);
     Workspace<double> w(model);
     UpdatePositions(model, q.data(), w);
     UpdateVelocities(model, v.data(), w);

@@ -1,0 +1,69 @@
+#include "core/mechanism/jacobian.h"
+
+#include "core/mechanism/dynamics.h"
+
+namespace kingpin::mechanism {
+
+JacobianEvaluator::JacobianEvaluator(const System& system)
+    : system_(system),
+      w_(system.model),
+      q_(system.model.positions),
+      v_(system.model.velocities),
+      states_(system.states),
+      state_rates_(system.states),
+      drive_(system.model.rows),
+      unit_(system.model.velocities),
+      direction_(system.model.positions) {}
+
+void JacobianEvaluator::Calc(double time, std::span<const double> y, std::span<const double> active,
+                             Eigen::Ref<Eigen::MatrixXd> jacobian) {
+  constexpr int kLanes = 8;
+  const Model& model = system_.model;
+  const int nq = model.positions, nv = model.velocities, nz = system_.states;
+  for (int r = 0; r < model.rows; ++r) {
+    w_.active[r] = active[r];
+    const bool driven = r < static_cast<int>(system_.drives.size()) && system_.drives[r];
+    drive_[r] = driven ? system_.drives[r](time)[2] : 0.0;
+  }
+  for (int first = 0; first < columns(); first += kLanes) {
+    const int lanes = std::min(kLanes, columns() - first);
+    for (int i = 0; i < nq; ++i) q_[i] = Dual8(y[i]);
+    for (int i = 0; i < nv; ++i) v_[i] = Dual8(y[nq + i]);
+    for (int i = 0; i < nz; ++i) states_[i] = Dual8(y[nq + nv + i]);
+    for (int lane = 0; lane < lanes; ++lane) {
+      const int column = first + lane;
+      if (column < nv) {
+        unit_[column] = 1;
+        CalcPositionRates(model, y.data(), unit_.data(), direction_.data());
+        unit_[column] = 0;
+        for (int i = 0; i < nq; ++i) q_[i].d[lane] = direction_[i];
+      } else if (column < 2 * nv) {
+        v_[column - nv].d[lane] = 1;
+      } else {
+        states_[column - 2 * nv].d[lane] = 1;
+      }
+    }
+    UpdatePositions(model, q_.data(), w_);
+    UpdateVelocities(model, v_.data(), w_);
+    UpdateClosures(model, w_);
+    std::fill(w_.f.begin(), w_.f.end(), Wrench<Dual8>{});
+    std::fill(w_.generalised.begin(), w_.generalised.end(), Dual8(0.0));
+    for (size_t g = 0; g < system_.forces.size(); ++g) {
+      const int state = system_.first_state[g];
+      system_.forces[g]->AddForces(ForceContext<Dual8>{model, Dual8(time), q_.data(), v_.data(),
+                                                       states_.data() + state,
+                                                       state_rates_.data() + state, w_});
+    }
+    AssembleEquations(model, drive_.data(), w_);
+    model.pattern.Factorise(w_.k.data());
+    model.pattern.BackSubstitute(w_.k.data(), w_.x.data());
+    for (int lane = 0; lane < lanes; ++lane) {
+      for (int i = 0; i < nv; ++i) {
+        jacobian(i, first + lane) = w_.x[model.pattern.position(i)].d[lane];
+      }
+      for (int i = 0; i < nz; ++i) jacobian(nv + i, first + lane) = state_rates_[i].d[lane];
+    }
+  }
+}
+
+}  // namespace kingpin::mechanism

@@ -1,0 +1,616 @@
+#include "joints/mechanism.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+#include "core/io/error.h"
+#include "core/io/nearest_name.h"
+#include "core/math/quaternion.h"
+#include "core/mechanism/assemble.h"
+#include "core/mechanism/compile.h"
+#include "core/mechanism/kinematics.h"
+
+namespace kingpin::joints {
+
+namespace {
+
+using mechanism::JointKind;
+using mechanism::Link;
+using mechanism::Model;
+
+constexpr double kAssemblyTolerance = 1e-12;
+
+[[noreturn]] void Fail(const Source& source, std::string key, std::string found,
+                       std::string expected, std::string suggestion = {}) {
+  throw io::InputError({.file = source.file,
+                        .line = source.line,
+                        .key = std::move(key),
+                        .found = std::move(found),
+                        .expected = std::move(expected),
+                        .suggestion = std::move(suggestion)});
+}
+
+bool IsFinite(const Vector3<double>& a) {
+  return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z);
+}
+
+bool IsFinite(const Transform<double>& X) {
+  return IsFinite(X.p) && IsFinite(X.R.x) && IsFinite(X.R.y) && IsFinite(X.R.z);
+}
+
+void CheckUnit(const Source& source, const std::string& key, const Vector3<double>& axis) {
+  const double norm = CalcNorm(axis);
+  if (!(std::abs(norm - 1) < 1e-6)) {
+    Fail(source, key,
+         fmt::format("({:g}, {:g}, {:g}) of length {:g}", axis.x, axis.y, axis.z, norm),
+         "a direction of length 1");
+  }
+}
+
+void CheckBody(const BodyDescription& body) {
+  const std::string key = fmt::format("bodies.{}", body.name);
+  if (!std::isfinite(body.mass) || body.mass < 0) {
+    Fail(body.source, key + ".mass", fmt::format("{:g} kg", body.mass),
+         "a mass that is not negative");
+  }
+  const auto& J = body.central_inertia;
+  for (double entry : J) {
+    if (!std::isfinite(entry)) {
+      Fail(body.source, key + ".inertia", fmt::format("{:g}", entry), "finite numbers [kg m^2]");
+    }
+  }
+  if (!IsFinite(body.centre))
+    Fail(body.source, key + ".centre", "a number that is not finite", "metres");
+  Eigen::Matrix3d tensor;
+  tensor << J[0], J[3], J[4], J[3], J[1], J[5], J[4], J[5], J[2];
+  const Eigen::Vector3d principal =
+      Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(tensor).eigenvalues();
+  const double slack = 1e-9 * std::abs(principal[2]);
+  if (principal[0] < -slack || principal[0] + principal[1] < principal[2] - slack) {
+    Fail(body.source, key + ".inertia",
+         fmt::format("principal moments {:g}, {:g}, {:g} kg m^2", principal[0], principal[1],
+                     principal[2]),
+         "moments that are not negative, none larger than the sum of the other two",
+         "is it given about the centre of mass, in kg m^2?");
+  }
+  if (body.mass == 0 && principal[2] > 0) {
+    Fail(body.source, key + ".mass", "0 kg with a moment of inertia", "a mass above zero");
+  }
+}
+
+// One primitive of a joint's chain: its kind, and the direction of its axis in the joint frame.
+struct Primitive {
+  JointKind kind;
+  Vector3<double> axis{0, 0, 1};
+};
+
+std::vector<Primitive> ListPrimitives(const JointDescription& joint) {
+  const Vector3<double> x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};
+  switch (joint.type) {
+    case JointType::kFixed:
+      return {};
+    case JointType::kRevolute:
+      return {{JointKind::kRevolute, joint.axis}};
+    case JointType::kPrismatic:
+      return {{JointKind::kPrismatic, joint.axis}};
+    case JointType::kScrew:
+      return {{JointKind::kScrew, joint.axis}};
+    case JointType::kCylindrical:
+      return {{JointKind::kPrismatic, joint.axis}, {JointKind::kRevolute, joint.axis}};
+    case JointType::kUniversal:
+      return {{JointKind::kRevolute, joint.axis}, {JointKind::kRevolute, joint.second_axis}};
+    case JointType::kPlanar:
+      return {{JointKind::kPrismatic, x}, {JointKind::kPrismatic, y}, {JointKind::kRevolute, z}};
+    case JointType::kSpherical:
+      return {{JointKind::kSpherical}};
+    case JointType::kFree:
+      return {{JointKind::kFree}};
+  }
+  return {};
+}
+
+// Inertia of several bodies that are one link, summed about the link's origin.
+struct LinkInertia {
+  double mass = 0;
+  Vector3<double> moment;
+  Eigen::Matrix3d tensor = Eigen::Matrix3d::Zero();
+  int bodies = 0;
+
+  void Add(const BodyDescription& body, const Transform<double>& X_LB) {
+    const double J[6] = {body.central_inertia[0], body.central_inertia[1], body.central_inertia[2],
+                         body.central_inertia[3], body.central_inertia[4], body.central_inertia[5]};
+    const auto I = math::MakeInertia(body.mass, body.centre, J, X_LB.R, X_LB.p);
+    mass += I.m;
+    moment += I.h;
+    Eigen::Matrix3d about;
+    about << I.xx, I.xy, I.xz, I.xy, I.yy, I.yz, I.xz, I.yz, I.zz;
+    tensor += about;
+    ++bodies;
+  }
+  void Set(Link& link) const {
+    link.mass = mass;
+    if (mass == 0) return;
+    const Vector3<double> c = (1 / mass) * moment;
+    link.centre = c;
+    const Eigen::Vector3d r(c.x, c.y, c.z);
+    const Eigen::Matrix3d central =
+        tensor - mass * (r.squaredNorm() * Eigen::Matrix3d::Identity() - r * r.transpose());
+    const double entries[6] = {central(0, 0), central(1, 1), central(2, 2),
+                               central(0, 1), central(0, 2), central(1, 2)};
+    std::copy(entries, entries + 6, link.central_inertia);
+  }
+};
+
+class Maker {
+ public:
+  explicit Maker(const MechanismDescription& description) : description_(description) {}
+
+  Mechanism Make() {
+    CheckNames();
+    ListChildren();
+    Model& model = mechanism_.system.model;
+    mechanism_.system.name = description_.name;
+    model.gravity = description_.gravity;
+    model.links.emplace_back();
+    model.links[0].name = kWorld;
+    inertias_.emplace_back();
+    mechanism_.bodies[kWorld] = {};
+    AddChildren(kWorld);
+    CheckReached();
+    for (size_t l = 1; l < model.links.size(); ++l) inertias_[l].Set(model.links[l]);
+    SetStart();
+    for (const ClosureDescription& closure : description_.closures) AddClosure(closure);
+    for (const CouplingDescription& coupling : description_.couplings) AddCoupling(coupling);
+    for (const MotionDescription& motion : description_.motions) AddMotion(motion);
+    mechanism::CompileTopology(model);
+    Assemble();
+    try {
+      mechanism::CompileElimination(
+          model, {mechanism_.start.data(), static_cast<size_t>(model.positions)});
+    } catch (const std::invalid_argument& error) {
+      Fail({}, "bodies", error.what(), "a mass on every link that moves");
+    }
+    return std::move(mechanism_);
+  }
+
+ private:
+  void CheckNames() {
+    std::map<std::string, const Source*, std::less<>> seen;
+    const auto add = [&](const std::string& list, const std::string& name, const Source& source) {
+      if (name.empty()) Fail(source, list, "an empty name", "a name");
+      if (!seen.emplace(list + '.' + name, &source).second) {
+        Fail(source, list + '.' + name, "a name given twice", "one of each name");
+      }
+    };
+    for (const BodyDescription& body : description_.bodies) {
+      if (body.name == kWorld)
+        Fail(body.source, "bodies.world", "a body named 'world'", "another name");
+      add("bodies", body.name, body.source);
+      CheckBody(body);
+      bodies_[body.name] = &body;
+    }
+    for (const JointDescription& joint : description_.joints) {
+      add("joints", joint.name, joint.source);
+      CheckJoint(joint);
+    }
+    for (const auto& closure : description_.closures) add("closures", closure.name, closure.source);
+    for (const auto& coupling : description_.couplings)
+      add("closures", coupling.name, coupling.source);
+    for (const auto& motion : description_.motions) add("closures", motion.name, motion.source);
+    for (double g : {description_.gravity.x, description_.gravity.y, description_.gravity.z}) {
+      if (!std::isfinite(g)) Fail({}, "gravity", fmt::format("{:g}", g), "finite numbers [m/s^2]");
+    }
+  }
+
+  void CheckBodyName(const Source& source, const std::string& key, const std::string& name) const {
+    if (name == kWorld || bodies_.count(name) > 0) return;
+    std::vector<std::string> known = {kWorld};
+    for (const auto& [body, unused] : bodies_) known.push_back(body);
+    Fail(source, key, fmt::format("'{}'", name), "the name of a body",
+         io::SuggestName(name, known, "bodies"));
+  }
+
+  void CheckFrame(const Source& source, const std::string& key,
+                  const FrameDescription& frame) const {
+    CheckBodyName(source, key, frame.body);
+    if (!IsFinite(frame.X_BF)) Fail(source, key, "a number that is not finite", "a pose");
+  }
+
+  void CheckJoint(const JointDescription& joint) const {
+    const std::string key = fmt::format("joints.{}", joint.name);
+    CheckFrame(joint.source, key + ".parent", joint.parent);
+    CheckFrame(joint.source, key + ".child", joint.child);
+    if (joint.child.body == kWorld) {
+      Fail(joint.source, key + ".child", "'world'", "a body that moves",
+           "exchange parent and child");
+    }
+    CheckUnit(joint.source, key + ".axis", joint.axis);
+    if (joint.type == JointType::kUniversal) {
+      CheckUnit(joint.source, key + ".second_axis", joint.second_axis);
+      if (std::abs(Dot(joint.axis, joint.second_axis)) > 1e-6) {
+        Fail(joint.source, key + ".second_axis", "an axis that is not perpendicular to the first",
+             "a right angle");
+      }
+    }
+    if (!std::isfinite(joint.pitch))
+      Fail(joint.source, key + ".pitch", "a number that is not finite", "m/rad");
+  }
+
+  void ListChildren() {
+    std::map<std::string, const JointDescription*> carrier;
+    for (const JointDescription& joint : description_.joints) {
+      const auto [before, is_new] = carrier.emplace(joint.child.body, &joint);
+      if (!is_new) {
+        Fail(joint.source, fmt::format("joints.{}.child", joint.name),
+             fmt::format("'{}', which joint '{}' carries already", joint.child.body,
+                         before->second->name),
+             "one joint for each body", "close a loop with an entry under closures");
+      }
+      children_[joint.parent.body].push_back(&joint);
+    }
+    for (auto& [parent, joints] : children_) {
+      std::sort(joints.begin(), joints.end(),
+                [](const auto* a, const auto* b) { return a->name < b->name; });
+    }
+    for (const auto& [name, body] : bodies_) {
+      if (carrier.count(name) == 0) {
+        Fail(body->source, fmt::format("bodies.{}", name), "a body that no joint carries",
+             "one joint whose child it is", "give it a joint of type free to let it fly");
+      }
+    }
+  }
+
+  void AddChildren(const std::string& parent) {
+    const auto found = children_.find(parent);
+    if (found == children_.end()) return;
+    for (const JointDescription* joint : found->second) {
+      AddJoint(*joint);
+      AddChildren(joint->child.body);
+    }
+  }
+
+  void CheckReached() const {
+    for (const JointDescription& joint : description_.joints) {
+      if (mechanism_.bodies.count(joint.child.body) > 0) continue;
+      std::string chain = joint.child.body;
+      std::string at = joint.parent.body;
+      for (size_t k = 0; k < bodies_.size() && at != joint.child.body; ++k) {
+        chain = at + " -> " + chain;
+        for (const JointDescription& other : description_.joints) {
+          if (other.child.body == at) {
+            at = other.parent.body;
+            break;
+          }
+        }
+      }
+      Fail(joint.source, fmt::format("joints.{}", joint.name),
+           fmt::format("a cycle of joints ({} -> {})", joint.child.body, chain),
+           "a tree that hangs on the world", "cut the loop with an entry under closures");
+    }
+  }
+
+  void AddJoint(const JointDescription& joint) {
+    Model& model = mechanism_.system.model;
+    const mechanism::Frame parent = mechanism_.MakeFrame(joint.parent);
+    const std::vector<Primitive> primitives = ListPrimitives(joint);
+    const Transform<double> X_MC = joint.child.X_BF.Inverse();
+    mechanism::Frame child{parent.link, parent.X_LF * X_MC};
+    if (!primitives.empty()) {
+      Mechanism::JointPlace place{joint.name, joint.type,       0, model.positions,
+                                  0,          model.velocities, 0};
+      Rotation<double> before;
+      int link = parent.link;
+      Transform<double> X_PF = parent.X_LF;
+      for (const Primitive& primitive : primitives) {
+        const Rotation<double> align = math::MakeRotationWithZ(primitive.axis);
+        Link next;
+        next.name = primitives.size() == 1 ? joint.child.body
+                                           : fmt::format("{} {}", joint.child.body,
+                                                         &primitive - primitives.data() + 1);
+        next.parent = link;
+        next.kind = primitive.kind;
+        next.q = model.positions;
+        next.v = model.velocities;
+        next.pitch = joint.pitch;
+        next.X_PF = {X_PF.R * (before.Transpose() * align), X_PF.p};
+        model.positions += CountPositions(next.kind);
+        model.velocities += CountVelocities(next.kind);
+        link = static_cast<int>(model.links.size());
+        model.links.push_back(next);
+        inertias_.emplace_back();
+        X_PF = {};
+        before = align;
+      }
+      place.link = link;
+      place.positions = model.positions - place.q;
+      place.velocities = model.velocities - place.v;
+      mechanism_.joints.push_back(place);
+      descriptions_.push_back(&joint);
+      child = {link, Transform<double>{before.Transpose(), {}} * X_MC};
+    }
+    mechanism_.bodies[joint.child.body] = child;
+    inertias_[child.link].Add(*bodies_.at(joint.child.body), child.X_LF);
+  }
+
+  void SetStart() {
+    Model& model = mechanism_.system.model;
+    mechanism_.start.assign(model.positions + model.velocities, 0.0);
+    held_q_.assign(model.velocities, 0);
+    held_v_.assign(model.velocities, 0);
+    for (size_t j = 0; j < mechanism_.joints.size(); ++j) {
+      const Mechanism::JointPlace& place = mechanism_.joints[j];
+      const JointDescription& joint = *descriptions_[j];
+      const auto set = [&](const std::vector<double>& values, int first, int count, const char* key,
+                           const char* what) {
+        if (values.empty()) return false;
+        if (static_cast<int>(values.size()) != count) {
+          Fail(joint.source, fmt::format("joints.{}.{}", joint.name, key),
+               fmt::format("{} numbers", values.size()), fmt::format("{} ({})", count, what));
+        }
+        for (int i = 0; i < count; ++i) {
+          if (!std::isfinite(values[i])) {
+            Fail(joint.source, fmt::format("joints.{}.{}", joint.name, key),
+                 fmt::format("{:g}", values[i]), "finite numbers");
+          }
+          mechanism_.start[first + i] = values[i];
+        }
+        return true;
+      };
+      if (place.positions != place.velocities) mechanism_.start[place.q + place.positions - 4] = 1;
+      if (set(joint.position, place.q, place.positions, "position",
+              "coordinates; quaternions are w, x, y, z")) {
+        std::fill_n(held_q_.begin() + place.v, place.velocities, 1);
+      }
+      if (set(joint.velocity, model.positions + place.v, place.velocities, "velocity",
+              "coordinates")) {
+        std::fill_n(held_v_.begin() + place.v, place.velocities, 1);
+      }
+    }
+  }
+
+  int AddRows(const std::string& name, const Source& source,
+              std::initializer_list<const char*> suffixes, bool holonomic = true) {
+    Model& model = mechanism_.system.model;
+    const int first = model.rows;
+    mechanism_.rows.push_back({name, first, static_cast<int>(suffixes.size())});
+    for (const char* suffix : suffixes) {
+      model.row_names.push_back(*suffix ? name + '.' + suffix : name);
+      model.holonomic.push_back(holonomic);
+      row_sources_.push_back(&source);
+      mechanism_.system.drives.emplace_back();
+      ++model.rows;
+    }
+    return first;
+  }
+
+  void AddClosure(const ClosureDescription& closure) {
+    Model& model = mechanism_.system.model;
+    const std::string key = fmt::format("closures.{}", closure.name);
+    CheckFrame(closure.source, key + ".a", closure.a);
+    CheckFrame(closure.source, key + ".b", closure.b);
+    const mechanism::Frame a = mechanism_.MakeFrame(closure.a), b = mechanism_.MakeFrame(closure.b);
+    if (a.link == b.link) {
+      Fail(closure.source, key,
+           fmt::format("'{}' and '{}', which move as one", closure.a.body, closure.b.body),
+           "two bodies that move against each other");
+    }
+    const auto point = [&](int axes, int row) {
+      model.points.push_back({a.link, b.link, a.X_LF.p, b.X_LF, axes, row});
+    };
+    const auto perpendicular = [&](const Vector3<double>& u, const Vector3<double>& w, int row) {
+      model.perpendiculars.push_back({a.link, b.link, u, w, row});
+    };
+    const auto parallel = [&](int row) {
+      perpendicular(a.X_LF.R.z, b.X_LF.R.x, row);
+      perpendicular(a.X_LF.R.z, b.X_LF.R.y, row + 1);
+    };
+    switch (closure.type) {
+      case ClosureType::kSpherical:
+        point(7, AddRows(closure.name, closure.source, {"x", "y", "z"}));
+        break;
+      case ClosureType::kPointOnLine:
+        point(3, AddRows(closure.name, closure.source, {"x", "y"}));
+        break;
+      case ClosureType::kPointOnPlane:
+        point(4, AddRows(closure.name, closure.source, {"z"}));
+        break;
+      case ClosureType::kDistance: {
+        const double length = closure.length > 0 ? closure.length : CalcStartDistance(a, b);
+        if (!(length > 0))
+          Fail(closure.source, key + ".length", fmt::format("{:g} m", length),
+               "a length above zero");
+        model.distances.push_back({a.link, b.link, a.X_LF.p, b.X_LF.p, length,
+                                   AddRows(closure.name, closure.source, {""})});
+        break;
+      }
+      case ClosureType::kParallelAxes:
+        parallel(AddRows(closure.name, closure.source, {"turn_x", "turn_y"}));
+        break;
+      case ClosureType::kPerpendicular:
+        perpendicular(a.X_LF.R.z, b.X_LF.R.x, AddRows(closure.name, closure.source, {"turn"}));
+        break;
+      case ClosureType::kRevolute: {
+        const int row = AddRows(closure.name, closure.source, {"x", "y", "z", "turn_x", "turn_y"});
+        point(7, row);
+        parallel(row + 3);
+        break;
+      }
+      case ClosureType::kPrismatic: {
+        const int row =
+            AddRows(closure.name, closure.source, {"x", "y", "turn_x", "turn_y", "turn_z"});
+        point(3, row);
+        parallel(row + 2);
+        perpendicular(a.X_LF.R.x, b.X_LF.R.y, row + 4);
+        break;
+      }
+      case ClosureType::kCylindrical: {
+        const int row = AddRows(closure.name, closure.source, {"x", "y", "turn_x", "turn_y"});
+        point(3, row);
+        parallel(row + 2);
+        break;
+      }
+      case ClosureType::kUniversal: {
+        const int row = AddRows(closure.name, closure.source, {"x", "y", "z", "turn"});
+        point(7, row);
+        perpendicular(a.X_LF.R.z, b.X_LF.R.x, row + 3);
+        break;
+      }
+      case ClosureType::kFixed: {
+        const int row =
+            AddRows(closure.name, closure.source, {"x", "y", "z", "turn_x", "turn_y", "turn_z"});
+        point(7, row);
+        parallel(row + 3);
+        perpendicular(a.X_LF.R.x, b.X_LF.R.y, row + 5);
+        break;
+      }
+      case ClosureType::kRollingDisc: {
+        if (!(closure.radius > 0)) {
+          Fail(closure.source, key + ".radius", fmt::format("{:g} m", closure.radius),
+               "a radius above zero");
+        }
+        const int row = AddRows(closure.name, closure.source, {"contact", "slip_x", "slip_y"});
+        model.holonomic[row + 1] = model.holonomic[row + 2] = 0;
+        model.discs.push_back({a.link, b.link, a.X_LF.p, a.X_LF.R.z, closure.radius, b.X_LF, row});
+        break;
+      }
+    }
+  }
+
+  double CalcStartDistance(const mechanism::Frame& a, const mechanism::Frame& b) {
+    Model model = mechanism_.system.model;
+    model.rows = 0;
+    model.row_names.clear();
+    mechanism::CompileTopology(model);
+    mechanism::Workspace<double> w(model);
+    mechanism::UpdatePositions(model, mechanism_.start.data(), w);
+    return CalcNorm((w.R[a.link] * a.X_LF.p + w.p[a.link]) -
+                    (w.R[b.link] * b.X_LF.p + w.p[b.link]));
+  }
+
+  mechanism::LinearRow::Term MakeTerm(const Source& source, const std::string& key,
+                                      const std::string& joint, int coordinate, double factor,
+                                      bool rate_only) const {
+    std::vector<std::string> known;
+    for (const Mechanism::JointPlace& place : mechanism_.joints) {
+      known.push_back(place.name);
+      if (place.name != joint) continue;
+      if (coordinate < 0 || coordinate >= place.velocities) {
+        Fail(source, key, fmt::format("coordinate {} of joint '{}'", coordinate, joint),
+             fmt::format("a coordinate from 0 to {}", place.velocities - 1));
+      }
+      if (!rate_only && place.positions != place.velocities) {
+        Fail(source, key, fmt::format("joint '{}', whose rotation is a quaternion", joint),
+             "a joint with angles or displacements", "couple its rates only");
+      }
+      if (!std::isfinite(factor)) Fail(source, key, fmt::format("{:g}", factor), "a finite factor");
+      return {place.q + (rate_only ? 0 : coordinate), place.v + coordinate, factor};
+    }
+    Fail(source, key, fmt::format("'{}'", joint), "the name of a joint that moves",
+         io::SuggestName(joint, known, "joints"));
+  }
+
+  void AddCoupling(const CouplingDescription& coupling) {
+    const std::string key = fmt::format("couplings.{}", coupling.name);
+    if (coupling.terms.empty())
+      Fail(coupling.source, key + ".terms", "nothing", "at least one joint");
+    mechanism::LinearRow row;
+    row.rate_only = coupling.rate_only;
+    double offset = 0;
+    for (const CouplingDescription::Term& term : coupling.terms) {
+      row.terms.push_back(MakeTerm(coupling.source, key, term.joint, term.coordinate, term.factor,
+                                   coupling.rate_only));
+      offset += term.factor * mechanism_.start[row.terms.back().q];
+    }
+    if (coupling.offset) offset = *coupling.offset;
+    row.row = AddRows(coupling.name, coupling.source, {""}, !coupling.rate_only);
+    if (!coupling.rate_only && offset != 0) {
+      mechanism_.system.drives[row.row] = [offset](double) {
+        return std::array<double, 3>{offset, 0, 0};
+      };
+    }
+    mechanism_.system.model.linear.push_back(std::move(row));
+  }
+
+  void AddMotion(const MotionDescription& motion) {
+    const std::string key = fmt::format("motions.{}", motion.name);
+    mechanism::LinearRow row;
+    row.terms.push_back(MakeTerm(motion.source, key, motion.joint, motion.coordinate, 1, false));
+    row.row = AddRows(motion.name, motion.source, {""});
+    mechanism_.system.drives[row.row] = motion.motion;
+    mechanism_.system.model.linear.push_back(std::move(row));
+  }
+
+  void Assemble() {
+    const Model& model = mechanism_.system.model;
+    std::vector<double> drive(model.rows), rate(model.rows);
+    for (int r = 0; r < model.rows; ++r) {
+      if (!mechanism_.system.drives[r]) continue;
+      const std::array<double, 3> s = mechanism_.system.drives[r](0);
+      drive[r] = s[0], rate[r] = s[1];
+    }
+    const std::span<double> q(mechanism_.start.data(), model.positions);
+    const std::span<double> v(mechanism_.start.data() + model.positions, model.velocities);
+    FailIfOpen(mechanism::AssemblePositions(model, drive, held_q_, kAssemblyTolerance, q),
+               "m or rad");
+    FailIfOpen(mechanism::AssembleVelocities(model, rate, held_v_, 1e-9, q, v), "m/s or rad/s");
+  }
+
+  void FailIfOpen(const mechanism::Assembly& assembly, const char* unit) const {
+    if (assembly.closed) return;
+    const int worst = assembly.open_rows.front();
+    std::string others;
+    for (size_t k = 1; k < assembly.open_rows.size() && k < 6; ++k) {
+      others += (k > 1 ? ", " : "; also open: ") +
+                mechanism_.system.model.row_names[assembly.open_rows[k]];
+    }
+    Fail(*row_sources_[worst], mechanism_.system.model.row_names[worst],
+         fmt::format("a gap of {:g} {}{}", assembly.residual, unit, others),
+         "a mechanism that can be assembled",
+         "check lengths and start positions, and whether constraints contradict each other");
+  }
+
+  const MechanismDescription& description_;
+  Mechanism mechanism_;
+  std::map<std::string, const BodyDescription*, std::less<>> bodies_;
+  std::map<std::string, std::vector<const JointDescription*>, std::less<>> children_;
+  std::vector<LinkInertia> inertias_;
+  std::vector<const JointDescription*> descriptions_;  // of mechanism_.joints
+  std::vector<const Source*> row_sources_;
+  std::vector<char> held_q_, held_v_;
+};
+
+}  // namespace
+
+const Mechanism::JointPlace& Mechanism::GetJoint(std::string_view name) const {
+  std::vector<std::string> known;
+  for (const JointPlace& joint : joints) {
+    if (joint.name == name) return joint;
+    known.push_back(joint.name);
+  }
+  throw std::out_of_range(
+      fmt::format("no joint '{}' moves; {}", name, io::SuggestName(name, known, "joints")));
+}
+
+const mechanism::Frame& Mechanism::GetBody(std::string_view name) const {
+  const auto found = bodies.find(name);
+  if (found != bodies.end()) return found->second;
+  std::vector<std::string> known;
+  for (const auto& [body, frame] : bodies) known.push_back(body);
+  throw std::out_of_range(
+      fmt::format("no body '{}'; {}", name, io::SuggestName(name, known, "bodies")));
+}
+
+mechanism::Frame Mechanism::MakeFrame(const FrameDescription& frame) const {
+  const mechanism::Frame& body = GetBody(frame.body);
+  return {body.link, body.X_LF * frame.X_BF};
+}
+
+Mechanism MakeMechanism(const MechanismDescription& description) {
+  return Maker(description).Make();
+}
+
+}  // namespace kingpin::joints
