@@ -18,8 +18,8 @@
 /// values.
 ///
 /// Sources: natural spline, e.g. de Boor, A Practical Guide to Splines, ch. IV; monotone slopes:
-/// Fritsch and Butland, SIAM J. Sci. Stat. Comput. 5 (1984), within the region of Fritsch and
-/// Carlson, SIAM J. Numer. Anal. 17 (1980).
+/// Hyman, SIAM J. Sci. Stat. Comput. 4 (1983), within the region of Fritsch and Carlson, SIAM J.
+/// Numer. Anal. 17 (1980).
 namespace kingpin::math {
 
 struct SplineShape {
@@ -152,7 +152,8 @@ class CubicSpline {
     return CubicSpline(count, x, f, slope);
   }
 
-  /// C1, monotone wherever the nodes are, no overshoot.
+  /// C1, monotone wherever the nodes are, no overshoot. It is the natural spline, C2, wherever that
+  /// is monotone with some room: integrators of high order feel every jump of the curvature.
   static CubicSpline MakeMonotone(int count, const double* x, const S* f) {
     S slope[kMaxNodes] = {};
     if (count > 0) CalcMonotoneSlopes(count, x, f, slope);
@@ -231,38 +232,24 @@ class CubicSpline {
     slope[n - 1] = (f[n - 1] - f[n - 2]) * (1.0 / h) + (h / 6.0) * (m[n - 2] + 2.0 * m[n - 1]);
   }
 
+  /// Hyman's filter: the slopes of the natural spline, moved between zero and three times the
+  /// flatter of the neighbouring chords where they are not, zero where the chords turn.
   static void CalcMonotoneSlopes(int n, const double* x, const S* f, S* slope) {
-    S rise[kMaxNodes];
-    double h[kMaxNodes];
-    for (int k = 0; k < n - 1; ++k) {
-      h[k] = x[k + 1] - x[k];
-      rise[k] = (f[k + 1] - f[k]) * (1.0 / h[k]);
-    }
-    if (n == 2) {
-      slope[0] = slope[1] = rise[0];
-      return;
-    }
+    CalcNaturalSlopes(n, x, f, slope);
     const S zero(0.0);
-    for (int k = 1; k < n - 1; ++k) {
-      const double w0 = 2.0 * h[k] + h[k - 1];
-      const double w1 = h[k] + 2.0 * h[k - 1];
-      const S product = rise[k - 1] * rise[k];
-      // (w0 + w1) / (w0/Δ0 + w1/Δ1), written without dividing by a vanishing Δ.
-      const S below = w0 * rise[k] + w1 * rise[k - 1];
-      const auto same_sign = product > zero;
-      slope[k] = Select(same_sign, (w0 + w1) * product / Select(same_sign, below, S(1.0)), zero);
+    const auto chord = [&](int k) { return (f[k + 1] - f[k]) * (1.0 / (x[k + 1] - x[k])); };
+    for (int k = 0; k < n; ++k) {
+      S flatter = chord(k < n - 1 ? k : k - 1);
+      if (k > 0 && k < n - 1) {
+        const S before = chord(k - 1);
+        const S after = flatter;
+        flatter = Select(Abs(before) < Abs(after), before, after);
+        flatter = Select(before * after > zero, flatter, zero);
+      }
+      const S limit = 3.0 * flatter;
+      slope[k] = Select(slope[k] * limit > zero, slope[k], zero);
+      slope[k] = Select(Abs(slope[k]) > Abs(limit), limit, slope[k]);
     }
-    slope[0] = CalcEndSlope(h[0], h[1], rise[0], rise[1]);
-    slope[n - 1] = CalcEndSlope(h[n - 2], h[n - 3], rise[n - 2], rise[n - 3]);
-  }
-
-  /// Three-point slope, limited so that the end piece stays monotone.
-  static S CalcEndSlope(double h0, double h1, const S& rise0, const S& rise1) {
-    const S zero(0.0);
-    S slope = ((2.0 * h0 + h1) * rise0 - h0 * rise1) * (1.0 / (h0 + h1));
-    slope = Select(slope * rise0 > zero, slope, zero);
-    const S limit = 3.0 * rise0;
-    return Select(Abs(slope) > Abs(limit), limit, slope);
   }
 
   SplineShape shape_;

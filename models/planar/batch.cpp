@@ -1,7 +1,7 @@
 #include "models/planar/batch.h"
 
 #include <algorithm>
-#include <cstring>
+#include <limits>
 #include <type_traits>
 
 #include "models/planar/validate.h"
@@ -51,7 +51,7 @@ std::span<const double> BatchResult::get_derivative(int design, BatchSignal sign
 
 struct BatchWorkspace::Scratch {
   struct CachedSchedule {
-    const Excitation* excitation = nullptr;
+    std::uint64_t excitation = 0;  // its id
     double duration = 0, sample_interval = 0, step = 0;
     StepKind kind{};
     Schedule schedule;
@@ -69,7 +69,7 @@ struct BatchWorkspace::Scratch {
   const Schedule& GetSchedule(const Excitation& excitation, const BatchOptions& options,
                               StepKind kind, double step) {
     for (const auto& entry : schedules) {
-      if (entry->excitation == &excitation && entry->duration == options.duration &&
+      if (entry->excitation == excitation.id() && entry->duration == options.duration &&
           entry->sample_interval == options.sample_interval && entry->step == step &&
           entry->kind == kind) {
         return entry->schedule;
@@ -77,7 +77,7 @@ struct BatchWorkspace::Scratch {
     }
     if (schedules.size() > 16) schedules.clear();
     auto entry = std::make_unique<CachedSchedule>();
-    entry->excitation = &excitation;
+    entry->excitation = excitation.id();
     entry->duration = options.duration;
     entry->sample_interval = options.sample_interval;
     entry->step = step;
@@ -93,7 +93,6 @@ struct BatchWorkspace::Scratch {
 
 BatchWorkspace::BatchWorkspace() : scratch_(std::make_unique<Scratch>()) {}
 BatchWorkspace::~BatchWorkspace() = default;
-void BatchWorkspace::Clear() { scratch_->schedules.clear(); }
 
 template <class T>
 void BatchWorkspace::Run(std::span<const Parameters<T>> designs, const Excitation& excitation,
@@ -181,7 +180,8 @@ void BatchWorkspace::Run(std::span<const Parameters<T>> designs, const Excitatio
       BatchOutcome& outcome = result.outcomes_[design];
       outcome = {};
       outcome.step = step;
-      outcome.error_estimate = error[lane];
+      outcome.error_estimate =
+          path == Path::kLanes ? error[lane] : std::numeric_limits<double>::quiet_NaN();
       outcome.failed = failed_sample[lane] >= 0;
       if (outcome.failed) {
         outcome.failure_time = options.duration * failed_sample[lane] / (samples - 1);
@@ -225,10 +225,15 @@ void BatchWorkspace::Run(std::span<const Parameters<T>> designs, const Excitatio
       }
       todo.resize(kept);
       run_pack(s.pack, path, step, one);
-      if (path != Path::kLanes || round >= 6) continue;
+      if (path != Path::kLanes) continue;
       for (int design : s.pack) {
-        const BatchOutcome& outcome = result.outcomes_[static_cast<size_t>(design)];
+        BatchOutcome& outcome = result.outcomes_[static_cast<size_t>(design)];
         if (!outcome.failed && outcome.error_estimate <= options.tolerance) continue;
+        if (round >= 6) {
+          if (!outcome.failed) outcome.failure_time = options.duration;
+          outcome.failed = true;
+          continue;
+        }
         s.steps[static_cast<size_t>(design)] = 0.5 * step;
         s.next.push_back(design);
       }

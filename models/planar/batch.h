@@ -19,11 +19,12 @@
 /// whichever thread.
 /// - A design that diverges or meets NaN does not disturb the others; it is flagged.
 /// - With the fast method every design carries an error estimate; where that exceeds `tolerance`
-/// the design is repeated with half the step, up to
-///   six times. Nothing becomes unstable unnoticed.
+/// the design is repeated with half the step, up to six times, and fails when that is not enough.
+/// Nothing becomes unstable unnoticed.
 /// - Designs whose forces switch (set-valued friction, stops, free play) are run one by one, with
 /// located events; the smoothed
-///   friction of the paper sets, which is stiffer than any useful step, by RK4.
+///   friction of the paper sets, which is stiffer than any useful step, by RK4. Neither they nor
+///   RK4 have an error estimate.
 ///
 /// Thread use: inputs are immutable; each thread has its own BatchWorkspace and result.
 namespace kingpin::planar {
@@ -44,10 +45,12 @@ struct BatchOptions {
 /// What became of one design.
 struct BatchOutcome {
   bool failed = false;
-  double failure_time = 0;      ///< [s]
-  int failure_coordinate = -1;  ///< index into kCoordinateNames
-  double error_estimate = 0;    ///< relative, of the velocities (fast method)
-  double step = 0;              ///< that was used [s]
+  double failure_time = 0;  ///< [s]; the duration when the error estimate stayed above its bound
+  /// Index into kCoordinateNames; −1 when nothing diverged: no failure, or the error estimate's.
+  int failure_coordinate = -1;
+  /// Relative, of the velocities; NaN for designs that the fast method does not simulate.
+  double error_estimate = 0;
+  double step = 0;  ///< that was used [s]
 };
 
 /// Samples of a batch, both ends included. Memory is reused by the next batch of the same or a
@@ -70,17 +73,14 @@ class BatchResult {
   std::vector<BatchOutcome> outcomes_;
 };
 
-/// Scratch memory of one thread. Keeps the schedule of the last excitation object and options, so
-/// that repeated batches under one excitation do not pay for it again; `Clear` when an excitation
-/// at the same address has changed.
+/// Scratch memory of one thread. Keeps the schedules of the last excitations (told apart by their
+/// ids) and options, so that repeated batches under one excitation do not pay for it again.
 class BatchWorkspace {
  public:
   BatchWorkspace();
   ~BatchWorkspace();
   BatchWorkspace(const BatchWorkspace&) = delete;
   BatchWorkspace& operator=(const BatchWorkspace&) = delete;
-
-  void Clear();
 
  private:
   friend void SimulateBatch(std::span<const Parameters<double>>, const Excitation&,

@@ -167,7 +167,7 @@ class LaneRun {
       WriteSample(sample);
       if (!CheckLanes(sample)) break;
     }
-    for (int lane = 0; lane < N; ++lane) job_.error[lane] = 0.0;
+    for (int lane = 0; lane < N; ++lane) job_.error[lane] = __builtin_nan("");
   }
 
  private:

@@ -23,7 +23,7 @@ struct LaneJob {
   const Excitation* excitation;  ///< for designs whose forces switch
   /// [sample][signal][value, derivative][lane]
   double* samples;
-  double* error;       ///< per lane: estimated relative error of the velocities
+  double* error;       ///< per lane: estimated relative error of the velocities; NaN: none
   int* failed_sample;  ///< per lane: where the state left all bounds; −1
   int* failed_coordinate;
 };

@@ -11,6 +11,7 @@ CarModeOptions CarModeOptions::PaperLike() {
   options.opposite_wheel = false;
   options.torsion_bar_stops = false;
   options.column_damping = false;
+  options.rack_damping = false;
   options.free_play = 0.0;
   options.support_axes = SupportAxes::kOrthogonal;
   options.yaw_inertia = YawInertia::kVertical;

@@ -45,6 +45,7 @@ struct CarModeOptions {
   bool opposite_wheel = true;  ///< the other wheel's inertia, geared to the rack
   bool torsion_bar_stops = true;
   bool column_damping = true;
+  bool rack_damping = true;         ///< of the rack's seals and guides, beside the friction
   std::optional<double> free_play;  ///< in place of the car's [m]
   RoadForceAt road_force_at = RoadForceAt::kWheelCentre;
   double lateral_share = 0.0;   ///< ρ: lateral over longitudinal road force [-]
@@ -54,7 +55,8 @@ struct CarModeOptions {
   int longitudinal_nodes = 7;          ///< of F_N's spline, odd
   double longitudinal_range = 8000.0;  ///< F_N's spline ends at this force [N]
 
-  /// The paper's model on this car: no option on, supports orthogonal.
+  /// The paper's model on this car: no option on, supports orthogonal, no damping but P = η K and
+  /// that of the longitudinal support.
   static CarModeOptions PaperLike();
 };
 

@@ -57,6 +57,7 @@ const io::Schema<CarModeOptions>& CarModeSchema() {
     s.Boolean("torsion_bar_stops", &O::torsion_bar_stops, "stops of the torsion bar").Default(true);
     s.Boolean("column_damping", &O::column_damping, "damping of the column's bearings")
         .Default(true);
+    s.Boolean("rack_damping", &O::rack_damping, "viscous damping of the rack").Default(true);
     s.Quantity("free_play", &O::free_play, "m",
                "whole clearance at the tie rod's inner joint, in place of the car's")
         .NonNegative()

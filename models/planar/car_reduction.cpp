@@ -75,8 +75,8 @@ double InterpolateLinearly(const parameters::Table& table, double x) {
   return table.y.back();
 }
 
-// Spline nodes through the table times `scale`, then three nodes at the limit, a last table
-// interval apart, so that the linear continuation is flat.
+// Nodes at the table's rows times `scale`, then three at the limit, a last table interval apart:
+// the monotone cubic is flat from the first of them on.
 Curve<double> MakeAssistCurve(const parameters::Table& table, double scale, double limit,
                               const char* key) {
   constexpr int kLimitNodes = 3;
@@ -90,6 +90,7 @@ Curve<double> MakeAssistCurve(const parameters::Table& table, double scale, doub
                           .suggestion = "leave out rows where the curve is straight"});
   }
   Curve<double> curve;
+  curve.kind = CurveKind::kMonotone;
   curve.count = count;
   for (std::size_t i = 0; i < table.x.size(); ++i) {
     curve.x[i] = table.x[i];
@@ -256,6 +257,7 @@ void Builder::BuildSupports() {
   record("F_N.range", reach.x(), "m",
          fmt::format("recession of K at {:g} N", options.longitudinal_range),
          "quasi-static equilibrium with the bushings' laws");
+  p.longitudinal_force.kind = CurveKind::kMonotone;
   p.longitudinal_force.count = options.longitudinal_nodes;
   for (int i = -half; i <= half; ++i) {
     const int index = i + half;
@@ -323,6 +325,7 @@ void Builder::BuildColumn() {
   if (options.torsion_bar_stops) {
     p.stop_angle = record("column.stop_angle", column.stop_angle * bar / p.column_stiffness, "rad",
                           "(bar's stop) c_bar/c_k", "twist of the whole column at the bar's stop");
+    // Of the whole column, as the schema says: with the bar blocked its shafts remain.
     p.stop_stiffness = column.stop_stiffness;
   }
   static const parameters::Hands kNobody{};
@@ -350,7 +353,7 @@ void Builder::BuildRack() {
       "m_R",
       rack.mass + pinion + (electric ? motor : 0.0) + (options.opposite_wheel ? opposite : 0.0),
       "kg", "rack + what is geared to it and switched on", "sum");
-  p.rack_damping = rack.damping;
+  p.rack_damping = options.rack_damping ? rack.damping : 0.0;
   const double motor_friction = electric ? car.steering.electric.motor_friction : 0.0;
   switch (options.friction) {
     case CarModeOptions::Friction::kNone:

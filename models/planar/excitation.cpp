@@ -1,6 +1,7 @@
 #include "models/planar/excitation.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -55,6 +56,12 @@ double CalcPulse(const Pulse& p, double t) {
     }
   }
   return 0;
+}
+
+// Unique in the process; says nothing about order or content.
+std::uint64_t MakeId() {
+  static std::atomic<std::uint64_t> last{0};
+  return ++last;
 }
 
 void Check(bool good, size_t index, std::string_view name, double found, std::string expected) {
@@ -125,7 +132,9 @@ std::optional<PulseKind> FindPulseKind(std::string_view name) {
   return std::nullopt;
 }
 
-Excitation::Excitation(std::vector<Pulse> pulses) : pulses_(std::move(pulses)) {
+Excitation::Excitation() : id_(MakeId()) {}
+
+Excitation::Excitation(std::vector<Pulse> pulses) : pulses_(std::move(pulses)), id_(MakeId()) {
   start_ = std::numeric_limits<double>::infinity();
   for (size_t i = 0; i < pulses_.size(); ++i) {
     CheckPulse(pulses_[i], i);
@@ -234,6 +243,7 @@ Excitation Excitation::MakeScaled(double factor) const {
   for (Pulse& p : scaled.pulses_) p.amplitude *= factor;
   for (double& f : scaled.value_) f *= factor;
   for (double& f : scaled.slope_) f *= factor;
+  scaled.id_ = MakeId();
   return scaled;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string_view>
 #include <vector>
@@ -38,7 +39,7 @@ struct Pulse {
 /// without overshoot; constant beyond its ends). Immutable.
 class Excitation {
  public:
-  Excitation() = default;
+  Excitation();
   /// Throws io::InputError (keys `pulses[i].NAME`) for numbers that are not finite or out of range.
   explicit Excitation(std::vector<Pulse> pulses);
   /// Throws io::InputError when there are fewer than two samples, time does not increase, or a
@@ -59,6 +60,9 @@ class Excitation {
   /// F_T is zero before this time [s]; infinite when it always is.
   double start() const { return start_; }
 
+  /// Tells histories apart: different for every history that was constructed, the same for copies.
+  std::uint64_t id() const { return id_; }
+
   const std::vector<Pulse>& pulses() const { return pulses_; }
 
   /// The same history with all forces multiplied.
@@ -70,6 +74,7 @@ class Excitation {
   std::vector<Pulse> pulses_;
   std::vector<double> time_, value_, slope_;
   double start_ = 1e300;
+  std::uint64_t id_;
 };
 
 }  // namespace kingpin::planar

@@ -57,6 +57,7 @@ LinearAnalysis AnalyseLinearly(const Parameters<double>& parameters,
   result.free_response = respond(result.free, result.free_modes);
   result.held_response = respond(result.held, result.held_modes);
   result.road_feel_gain = CalcRoadFeelGain(parameters);
+  result.static_road_feel_gain = CalcStaticRoadFeel(parameters);
   return result;
 }
 
@@ -104,6 +105,7 @@ Json MakeJson(const LinearAnalysis& analysis) {
   json["held"]["model"] = MakeJson(analysis.held);
   json["held"]["modes"] = MakeJson(analysis.held_modes, analysis.held);
   json["road_feel_gain"] = analysis.road_feel_gain;
+  json["static_road_feel_gain"] = analysis.static_road_feel_gain;
   return json;
 }
 

@@ -17,7 +17,8 @@ struct LinearAnalysis {
   LinearModel free, held;  ///< steering wheel free, and held by the driver
   Modes free_modes, held_modes;
   FrequencyResponse free_response, held_response;
-  double road_feel_gain = 0.0;  ///< [N m/N m]
+  double road_feel_gain = 0.0;         ///< mean over 0 to 10 Hz [N m/N m]
+  double static_road_feel_gain = 0.0;  ///< at 0 Hz [N m/N m]
 };
 
 struct LinearAnalysisOptions {
@@ -38,7 +39,8 @@ nlohmann::ordered_json MakeJson(const LinearModel& model);
 /// `[{"kind", "frequency", "damped_frequency", "damping_ratio", "eigenvalue": [re, im],
 /// "time_constant", "shares": {coordinate: share...}, "shape": [[re, im]...], "summary"}...]`
 nlohmann::ordered_json MakeJson(const Modes& modes, const LinearModel& model);
-/// The whole analysis: `free` and `held`, each with `model` and `modes`, and `road_feel_gain`.
+/// The whole analysis: `free` and `held`, each with `model` and `modes`, and `road_feel_gain`,
+/// `static_road_feel_gain`.
 nlohmann::ordered_json MakeJson(const LinearAnalysis& analysis);
 
 /// The four matrices one after another as CSV, each under a comment line `# A (13 x 13)`, 17

@@ -3,7 +3,7 @@
 #include <array>
 #include <cstddef>
 
-#include "core/math/cubic_spline.h"
+#include "models/planar/curve_spline.h"
 #include "models/planar/linear_entries.h"
 #include "models/planar/parameters.h"
 
@@ -124,17 +124,15 @@ S CalcHeldWheelGain(const Parameters<S>& p, const LinearEntries<S>& e, const S& 
 /// Gauss-Legendre quadrature (its nodes are part of the definition: the gain is a smooth function
 /// of every parameter). S = double, or math::Dual for exact gradients.
 ///
-/// Static limit without aligning stiffness: |sin γ| / (h (i_U + dF_A/dM)), h the lever of the tie
-/// rod about the point where the lines of the supports L and N cross.
+/// The rack, with all that is geared to it, swings on the held column at about √(c_k/m_R) i_U. An
+/// electric motor (hundreds of kilograms at the rack) brings that within the band, and the mean
+/// then measures the resonance as much as what the driver feels of slow forces; CalcStaticRoadFeel
+/// does not.
 template <class S>
 S CalcRoadFeelGain(const Parameters<S>& p) {
-  using Spline = math::CubicSpline<S, kMaxCurveNodes>;
-  const auto slope_at_zero = [](const Curve<S>& curve) {
-    return Spline::MakeNatural(curve.count, curve.x.data(), curve.f.data()).CalcSlope(S(0.0));
-  };
   const LinearEntries<S> entries = CalcLinearEntries(p);
-  const S longitudinal_slope = slope_at_zero(p.longitudinal_force);
-  const S assist_slope = slope_at_zero(p.assist_force);
+  const S longitudinal_slope = MakeSpline(p.longitudinal_force).CalcSlope(S(0.0));
+  const S assist_slope = MakeSpline(p.assist_force).CalcSlope(S(0.0));
   S sum(0.0);
   for (std::size_t i = 0; i < detail::kGaussNodes.size(); ++i) {
     sum = sum +
@@ -142,6 +140,17 @@ S CalcRoadFeelGain(const Parameters<S>& p) {
                                                        kRoadFeelHighest * detail::kGaussNodes[i]);
   }
   return sum;
+}
+
+/// The limit of CalcHeldWheelGain at 0 Hz [N m/N m]: no mass and no damping enters. Without
+/// aligning stiffness |sin γ| / (h (i_U + dF_A/dM)), h the lever of the tie rod about the point
+/// where the lines of the supports L and N cross; an aligning torque lowers it, counted at its full
+/// quasi-static stiffness.
+template <class S>
+S CalcStaticRoadFeel(const Parameters<S>& p) {
+  return CalcHeldWheelGain(p, CalcLinearEntries(p),
+                           MakeSpline(p.longitudinal_force).CalcSlope(S(0.0)),
+                           MakeSpline(p.assist_force).CalcSlope(S(0.0)), 0.0);
 }
 
 }  // namespace kingpin::planar

@@ -21,9 +21,16 @@ namespace kingpin::planar {
 
 inline constexpr int kMaxCurveNodes = 16;
 
-/// A curve through (x_k, f_k): natural cubic spline, continued linearly outside its nodes.
+/// How a curve runs between its nodes; see core/math/cubic_spline.h.
+enum class CurveKind {
+  kNatural,   ///< C2; may overshoot. The law of the identified paper sets
+  kMonotone,  ///< C1, monotone wherever the nodes are; else the natural one. Car mode
+};
+
+/// A curve through (x_k, f_k): cubic spline, continued linearly outside its nodes.
 template <class S>
 struct Curve {
+  CurveKind kind = CurveKind::kNatural;
   int count = 0;
   std::array<double, kMaxCurveNodes> x{};  ///< strictly increasing
   std::array<S, kMaxCurveNodes> f{};
@@ -70,7 +77,7 @@ struct Parameters {
   S lateral_angle{};      ///< β [rad]
 
   // Longitudinal support N: nonlinear, along the fixed direction (cos α, sin α).
-  Curve<S> longitudinal_force;  ///< F_N over elongation [N over m], tension positive
+  Curve<S> longitudinal_force;  ///< F_N over elongation [N over m], tension positive, F_N(0) = 0
   S longitudinal_damping{};     ///< b_N [N s/m]
   S longitudinal_x{};           ///< [m]
   S longitudinal_y{};           ///< [m]
@@ -161,6 +168,7 @@ Parameters<To> ConvertParameters(const Parameters<From>& p, const Convert& conve
   r.friction_law = p.friction_law;
   r.assist_lag = p.assist_lag;
   const auto convert_curve = [&](const Curve<From>& from, Curve<To>& to) {
+    to.kind = from.kind;
     to.count = from.count;
     to.x = from.x;
     for (int i = 0; i < from.count; ++i) {

@@ -2,6 +2,7 @@
 
 #include "core/math/cubic_spline.h"
 #include "core/math/scalar.h"
+#include "models/planar/curve_spline.h"
 #include "models/planar/parameters.h"
 
 /// The compiled form of the planar model: what is the same for all lanes (`Structure`) apart from
@@ -118,8 +119,7 @@ Model<S> MakeModel(const Parameters<S>& p) {
   k.lateral_damping = p.damping_time * p.lateral_stiffness;
   set_line(k.longitudinal, p.longitudinal_x, p.longitudinal_y, p.longitudinal_angle);
   k.longitudinal_damping = p.longitudinal_damping;
-  const auto longitudinal = math::CubicSpline<S, kMaxCurveNodes>::MakeNatural(
-      p.longitudinal_force.count, p.longitudinal_force.x.data(), p.longitudinal_force.f.data());
+  const auto longitudinal = MakeSpline(p.longitudinal_force);
   k.longitudinal_force = longitudinal.segments();
   st.longitudinal = longitudinal.shape();
 
@@ -152,8 +152,7 @@ Model<S> MakeModel(const Parameters<S>& p) {
   k.hands_damping = p.hands_damping;
   k.rim_radius = p.rim_radius;
 
-  const auto assist = math::CubicSpline<S, kMaxCurveNodes>::MakeNatural(
-      p.assist_force.count, p.assist_force.x.data(), p.assist_force.f.data());
+  const auto assist = MakeSpline(p.assist_force);
   k.assist_force = assist.segments();
   st.assist = assist.shape();
   st.assist_lag = st.assist.count > 0 ? p.assist_lag : AssistLag::kNone;

@@ -67,7 +67,8 @@ class Builder {
     schedule_.adams_step = h;
     constexpr int kOrder = 7;
     constexpr int kParts = 4;
-    int remembered = kOrder;  // before the start, zeros are the exact history
+    // Before a later start, zeros are the exact history; a force that acts at once has none.
+    int remembered = excitation_.start() > 0 ? kOrder : 0;
     size_t next = 0;
     for (int i = schedule_.first_sample; i < intervals_; ++i) {
       for (int j = 0; j < per_sample; ++j) {

@@ -46,6 +46,7 @@ class Run {
   void Advance(double t0, double t1) {
     const int steps = std::max(1, static_cast<int>(std::ceil((t1 - t0) / options_.step - 1e-9)));
     const double h = (t1 - t0) / steps;
+    steps_ += steps;
     for (int i = 0; i < steps; ++i) {
       const double t = t0 + i * h;
       if (!model_.structure.has_events()) {
@@ -69,6 +70,7 @@ class Run {
   const Extended& now() const { return now_; }
   const Model<double>& model() const { return model_; }
   double slip() const { return switches_.slip; }
+  long steps() const { return steps_; }
 
  private:
   void StepOnce(Extended& y, double t, double h, double slip) const {
@@ -103,6 +105,7 @@ class Run {
   SimulationOptions options_;
   Extended now_;
   Switches<double> switches_;
+  long steps_ = 0;
 };
 
 /// One run with the fast method. The powers are integrated with the corrector's weights, or by
@@ -240,7 +243,10 @@ class Recorder {
     h_.supplied_energy.push_back(now.ledger.supplied);
   }
 
-  History Take() { return std::move(h_); }
+  History Take(const IntegrationRecord& integration) {
+    h_.integration = integration;
+    return std::move(h_);
+  }
 
  private:
   const Model<double>& model_;
@@ -250,8 +256,9 @@ class Recorder {
 
 [[noreturn]] void FailDiverged(const State<double>& x, int coordinate, double t, double step) {
   throw io::RunError(fmt::format(
-      "the planar model diverges at t = {:.4f} s in coordinate {} = {:g}, rate {:g}; with step "
-      "{:g} s",
+      "the run diverges at t = {:.4f} s in coordinate {} = {:g}, rate {:g}, with steps of {:g} s: "
+      "they are too long for this model, or the model itself is unstable; 'method: cvode', which "
+      "chooses its own steps, tells which",
       t, kCoordinateNames[coordinate], x.q[coordinate], x.v[coordinate], step));
 }
 
@@ -281,12 +288,14 @@ History SimulateRungeKutta(const Parameters<double>& parameters, const Model<dou
     }
     recorder.Sample(t1, run.now(), run.slip());
   }
-  return recorder.Take();
+  return recorder.Take({.step = options.step, .steps = run.steps()});
 }
 
-/// False when the error estimate is not met and this is not the last trial.
+/// False when the run diverges or its error estimate exceeds the bound; in the last trial both
+/// throw.
 bool SimulateFast(const Model<double>& model, const Excitation& excitation,
-                  const SimulationOptions& options, bool last, Recorder& recorder) {
+                  const SimulationOptions& options, bool last, Recorder& recorder,
+                  IntegrationRecord& integration) {
   const Schedule schedule =
       MakeAdamsSchedule(excitation, options.duration, options.sample_interval, options.step);
   FastRun run(model, schedule);
@@ -305,7 +314,20 @@ bool SimulateFast(const Model<double>& model, const Excitation& excitation,
     recorder.Sample(time(sample), run.now(), 0);
     ++sample;
   }
-  return last || run.CalcErrorEstimate() <= options.tolerance;
+  integration.step = schedule.adams_step;
+  integration.steps = static_cast<long>(schedule.steps.size());
+  integration.error_estimate = run.CalcErrorEstimate();
+  integration.error_bound = options.tolerance;
+  // Written so that NaN fails.
+  const bool good = integration.error_estimate <= options.tolerance;
+  if (last && !good) {
+    throw io::RunError(fmt::format(
+        "the fast method's estimated relative error {:.2g} exceeds its bound {:g} even with steps "
+        "of {:g} s: the model is too stiff for it (or its forces drown in rounding); use "
+        "'method: cvode', which chooses its own steps",
+        integration.error_estimate, options.tolerance, integration.step));
+  }
+  return good;
 }
 
 }  // namespace
@@ -339,13 +361,20 @@ History Simulate(const Parameters<double>& parameters, const Excitation& excitat
   SimulationOptions used = options;
   // Where the fast method cannot run, its step would be too large for RK4.
   if (used.step == 0) used.step = fast ? 2.5e-4 : 1e-5;
-  if (options.method == Method::kFast && !fast) used.step = std::min(used.step, 1e-5);
+  if (options.method == Method::kFast && !fast) {
+    CheckOption(used.step <= 1e-5, "step", used.step,
+                "at most 1e-05 s, or none: dry friction, stops and free play are integrated by "
+                "Runge-Kutta");
+  }
   const int n = CalcSampleIntervals(used.duration, used.sample_interval, used.step);
   if (!fast) return SimulateRungeKutta(parameters, model, excitation, used, n);
   for (int round = 0;; ++round) {
     const bool last = round == 6;
     Recorder recorder(model, excitation, n);
-    if (SimulateFast(model, excitation, used, last, recorder)) return recorder.Take();
+    IntegrationRecord integration;
+    if (SimulateFast(model, excitation, used, last, recorder, integration)) {
+      return recorder.Take(integration);
+    }
     used.step *= 0.5;
   }
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -19,9 +20,20 @@ struct SimulationOptions {
   double duration = 1.0;          ///< [s]
   double sample_interval = 1e-3;  ///< of the output [s]; the duration is a whole number of these
   Method method = Method::kFast;
-  double step = 0;  ///< largest step [s]; 0: 0.25 ms (fast), 10 µs (RK4)
-  /// Fast method: bound of its error estimate; the step is halved until it holds. See BatchOptions.
+  /// Largest step [s]; 0: 0.25 ms (fast), 10 µs (RK4, and what kFast leaves to RK4: at most that).
+  double step = 0;
+  /// Fast method: bound of its error estimate; the step is halved, at most six times, until it
+  /// holds. See BatchOptions.
   double tolerance = 1.5e-4;
+};
+
+/// How a run of fixed steps was integrated.
+struct IntegrationRecord {
+  double step = 0;  ///< largest, after all halvings [s]
+  long steps = 0;   ///< of the run that was kept; pieces between events count as one step
+  /// Estimated relative error of the velocities and its bound; NaN without an estimate (RK4).
+  double error_estimate = std::numeric_limits<double>::quiet_NaN();
+  double error_bound = std::numeric_limits<double>::quiet_NaN();
 };
 
 /// Signals of one run at t_i = i · sample_interval, i = 0 ... duration / sample_interval, both ends
@@ -43,6 +55,7 @@ struct History {
   std::vector<double> dissipated_energy;  ///< by dampers and friction since the start [J]
   std::vector<double>
       supplied_energy;  ///< by road, assistance and lagged aligning torque since the start [J]
+  IntegrationRecord integration;  ///< of Simulate
   std::size_t size() const { return time.size(); }
 
   /// Largest |kinetic + potential + dissipated − supplied| over the largest |supplied|; rounding
@@ -55,8 +68,9 @@ struct History {
 /// excitation; between them they are equal and at most `options.step` long. Coulomb friction, stops
 /// and free play are located as events to rounding; such runs, and the smoothed friction, are
 /// always done with RK4.
-/// Throws io::InputError for parameters or options that make no run, io::RunError for a state that
-/// diverges, with the time and the coordinate.
+/// Throws io::InputError for parameters or options that make no run (a step above 10 µs where kFast
+/// leaves the run to RK4 is one), io::RunError for a state that diverges, with the time and the
+/// coordinate, and for an error estimate that stays above its bound.
 History Simulate(const Parameters<double>& parameters, const Excitation& excitation,
                  const SimulationOptions& options);
 

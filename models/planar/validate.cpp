@@ -1,5 +1,6 @@
 #include "models/planar/validate.h"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <string_view>
@@ -8,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "core/io/error.h"
+#include "models/planar/curve_spline.h"
 
 namespace kingpin::planar {
 namespace {
@@ -60,6 +62,21 @@ void CheckCurve(std::string_view name, const Curve<double>& curve, int least) {
   }
 }
 
+/// Every method starts from rest, the methods of fixed step only when the excitation begins.
+void CheckRest(std::string_view name, const Curve<double>& curve) {
+  double largest = 0;
+  const auto count = static_cast<size_t>(curve.count);
+  for (size_t k = 0; k < count; ++k) largest = std::max(largest, std::abs(curve.f[k]));
+  const auto end = curve.x.begin() + curve.count;
+  const auto zero = std::find(curve.x.begin(), end, 0.0);
+  // Nearly always there is a node, and a spline need not be made for every design of a batch.
+  const double force =
+      zero != end ? curve.f[static_cast<size_t>(zero - curve.x.begin())] : MakeSpline(curve)(0.0);
+  if (std::abs(force) <= 1e-9 * largest) return;
+  Fail(name, fmt::format("{:g} N at rest (x = 0)", force), "no force at rest",
+       "shift the curve so that it runs through (0, 0)");
+}
+
 }  // namespace
 
 void ValidateParameters(const Parameters<double>& p) {
@@ -91,6 +108,7 @@ void ValidateParameters(const Parameters<double>& p) {
   Finite("lateral_y", p.lateral_y);
   Finite("lateral_angle", p.lateral_angle);
   CheckCurve("longitudinal_force", p.longitudinal_force, 2);
+  CheckRest("longitudinal_force", p.longitudinal_force);
   NotNegative("longitudinal_damping", p.longitudinal_damping, "N s/m");
   Finite("longitudinal_x", p.longitudinal_x);
   Finite("longitudinal_y", p.longitudinal_y);

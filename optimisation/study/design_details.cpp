@@ -53,7 +53,10 @@ io::Signals MakeSignals(const planar::History& h) {
   add("front.left.carrier.acceleration_x", "m/s^2", h.a[0]);
   add("front.left.carrier.acceleration_y", "m/s^2", h.a[1]);
   add("front.left.carrier.yaw_acceleration", "rad/s^2", h.a[2]);
-  add("front.left.road.force_x", "N", h.road_force);
+  // F_T is positive rearwards, the signal forwards (ISO 8855).
+  std::vector<double> road_force_x = h.road_force;
+  for (double& force : road_force_x) force = -force;
+  add("front.left.road.force_x", "N", road_force_x);
   add("energy.kinetic", "J", h.kinetic_energy);
   add("energy.potential", "J", h.potential_energy);
   add("energy.dissipated", "J", h.dissipated_energy);

@@ -7,6 +7,7 @@
 
 #include "core/io/error.h"
 #include "core/io/nearest_name.h"
+#include "models/planar/curve_spline.h"
 #include "optimisation/study/scalar_fields.h"
 
 namespace kingpin::study {
@@ -94,6 +95,118 @@ void AddScalar(const Parameters<double>& base, const std::string& name, int inde
   variables.push_back(variable);
 }
 
+/// Slopes of the natural cubic at its nodes, one row of weights of the node values each.
+std::vector<std::vector<double>> CalcNaturalSlopeWeights(const planar::Curve<double>& curve) {
+  const auto count = static_cast<std::size_t>(curve.count);
+  std::vector<std::vector<double>> weights(count, std::vector<double>(count));
+  for (std::size_t j = 0; j < count; ++j) {
+    planar::Curve<double> unit = curve;
+    unit.f.fill(0.0);
+    unit.f[j] = 1.0;
+    const auto spline = planar::MakeSpline(unit);
+    for (std::size_t k = 0; k < count; ++k) weights[k][j] = spline.CalcSlope(curve.x[k]);
+  }
+  return weights;
+}
+
+/// The least slope of the curve on the segment after node k: of a quadratic, at an end or between.
+double CalcLeastSlope(const planar::Curve<double>& curve, int k) {
+  const auto spline = planar::MakeSpline(curve);
+  const double left = curve.x[k], h = curve.x[k + 1] - left;
+  const double chord = (curve.f[k + 1] - curve.f[k]) / h;
+  // At the right end the slope of this segment: that of the curve, which is C1.
+  const double a = spline.CalcSlope(left), b = spline.CalcSlope(left + h);
+  const double middle = 1.5 * chord - 0.25 * (a + b);
+  double least = std::min(a, b);
+  const double curvature = 2.0 * (a + b - 2.0 * middle);
+  if (curvature > 0.0) {
+    const double at = 0.5 + 0.5 * (a - b) / curvature;
+    if (at > 0.0 && at < 1.0) {
+      least = std::min(least, middle - 0.25 * (a - b) * (a - b) / curvature);
+    }
+  }
+  return least;
+}
+
+void CheckNeverFalls(const planar::Curve<double>& curve, const std::string& name,
+                     const std::string& context) {
+  double steepest = 0.0;
+  for (int k = 0; k + 1 < curve.count; ++k) {
+    // A search ends on the condition to rounding.
+    const double rounding = 1e-9 * (std::abs(curve.f[k]) + std::abs(curve.f[k + 1]));
+    if (curve.f[k] > curve.f[k + 1] + rounding) {
+      Reject(
+          context, fmt::format("curves.{}", name),
+          fmt::format("a curve that falls from {} to {} N at x = {}", io::FormatNumber(curve.f[k]),
+                      io::FormatNumber(curve.f[k + 1]), io::FormatNumber(curve.x[k + 1])),
+          "node values that never decrease, because the curve is to be monotone");
+    }
+    steepest = std::max(steepest, (curve.f[k + 1] - curve.f[k]) / (curve.x[k + 1] - curve.x[k]));
+  }
+  for (int k = 0; k + 1 < curve.count; ++k) {
+    if (CalcLeastSlope(curve, k) >= -1e-6 * steepest) continue;
+    Reject(context, fmt::format("curves.{}", name),
+           fmt::format("a natural cubic that falls between its nodes at x = {} and {}",
+                       io::FormatNumber(curve.x[k]), io::FormatNumber(curve.x[k + 1])),
+           "a curve that never falls, because it is to be monotone",
+           "node values that bend less, or 'monotone: false'");
+  }
+}
+
+/// Adds the conditions of MonotoneCondition. `owner` and `sign` say which variable sets a node, and
+/// with which sign; −1: none.
+void AddMonotoneConditions(const planar::Curve<double>& curve, const std::string& name, bool odd,
+                           const std::vector<int>& owner, const std::vector<double>& sign,
+                           const std::vector<DesignVariable>& variables,
+                           std::vector<MonotoneCondition>& conditions) {
+  const auto count = static_cast<std::size_t>(curve.count);
+  // Σ weight_k f_k ≥ 0, as a row over the variables.
+  const auto add = [&](std::string what, const std::vector<double>& weight) {
+    MonotoneCondition condition;
+    condition.name = std::move(what);
+    condition.coefficients.assign(variables.size(), 0.0);
+    for (std::size_t k = 0; k < count; ++k) {
+      if (owner[k] < 0) {
+        condition.bound += weight[k] * curve.f[k];
+      } else {
+        condition.coefficients[static_cast<std::size_t>(owner[k])] -= weight[k] * sign[k];
+      }
+    }
+    double largest = 0.0;
+    for (std::size_t i = 0; i < variables.size(); ++i) {
+      const double c = condition.coefficients[i];
+      largest += c * (c > 0.0 ? variables[i].upper : variables[i].lower);
+    }
+    if (largest > condition.bound) conditions.push_back(std::move(condition));
+  };
+  const bool natural = curve.kind == planar::CurveKind::kNatural;
+  const auto slopes = natural ? CalcNaturalSlopeWeights(curve) : std::vector<std::vector<double>>{};
+  std::vector<double> weight(count);
+  for (std::size_t k = 0; k < count; ++k) {
+    if (natural && !(odd && curve.x[k] < 0.0)) {
+      // Times the segment's width, so that all conditions are forces.
+      const double h = k + 1 < count ? curve.x[k + 1] - curve.x[k] : curve.x[k] - curve.x[k - 1];
+      for (std::size_t j = 0; j < count; ++j) weight[j] = h * slopes[k][j];
+      add(fmt::format("{} rising at node {}", name, k), weight);
+    }
+    if (k + 1 == count || (odd && curve.x[k + 1] <= 0.0)) continue;
+    if (!natural) {
+      std::fill(weight.begin(), weight.end(), 0.0);
+      weight[k] = -1.0;
+      weight[k + 1] = 1.0;
+      add(fmt::format("{}[{}] not below its neighbour", name, k + 1), weight);
+      continue;
+    }
+    const double h = curve.x[k + 1] - curve.x[k];
+    for (const std::size_t end : {k, k + 1}) {
+      for (std::size_t j = 0; j < count; ++j) weight[j] = -h * slopes[end][j];
+      weight[k] -= 3.0;
+      weight[k + 1] += 3.0;
+      add(fmt::format("{} rising between nodes {} and {}", name, k, k + 1), weight);
+    }
+  }
+}
+
 /// Adds the node values of one curve and the conditions that keep it monotone.
 void AddCurve(const Parameters<double>& base, const Parameters<double>& reference,
               const std::string& name, DesignVariable::Kind kind,
@@ -142,19 +255,8 @@ void AddCurve(const Parameters<double>& base, const Parameters<double>& referenc
     variables.push_back(variable);
   }
   if (!bounds->monotone) return;
-  for (int k = 0; k + 1 < curve.count; ++k) {
-    // A search ends on the condition to rounding.
-    const double rounding = 1e-9 * (std::abs(curve.f[k]) + std::abs(curve.f[k + 1]));
-    if (curve.f[k] > curve.f[k + 1] + rounding) {
-      Reject(
-          context, fmt::format("curves.{}", name),
-          fmt::format("a curve that falls from {} to {} N at x = {}", io::FormatNumber(curve.f[k]),
-                      io::FormatNumber(curve.f[k + 1]), io::FormatNumber(curve.x[k + 1])),
-          "node values that never decrease, because the curve is to be monotone");
-    }
-    if (owner[k] < 0 && owner[k + 1] < 0) continue;
-    monotone.push_back({owner[k], owner[k + 1], sign[k], sign[k + 1], curve.f[k], curve.f[k + 1]});
-  }
+  CheckNeverFalls(curve, name, context);
+  AddMonotoneConditions(curve, name, bounds->odd, owner, sign, variables, monotone);
 }
 
 }  // namespace
@@ -180,6 +282,10 @@ DesignSpace DesignSpace::Make(const Parameters<double>& base, const Parameters<d
       Reject(context, "free", fmt::format("'{}'", name), "the name of a design variable or curve",
              io::SuggestName(name, KnownNames(), "names"));
     }
+  }
+  // Those of the first curve know nothing of the variables that came later.
+  for (MonotoneCondition& condition : space.monotone_) {
+    condition.coefficients.resize(space.variables_.size(), 0.0);
   }
   return space;
 }

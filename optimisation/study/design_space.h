@@ -25,16 +25,25 @@ struct DesignVariable {
   double start = 0.0;
 };
 
-/// A monotone curve: value(low) ≤ value(high) for two neighbouring nodes. A node that is not free
-/// has −1 and its fixed value; `low_sign` is −1 where an odd curve's variable stands for the
-/// mirrored node.
+/// What keeps a curve from falling, at its nodes and between them: coefficients · x ≤ bound.
+///
+/// A monotone cubic falls nowhere if its node values f_k do not: f_k ≤ f_{k+1}. The slopes s_k of a
+/// natural cubic at its nodes are linear in the node values; with the chords Δ_k = (f_{k+1} −
+/// f_k)/h_k it falls nowhere if
+///
+///   s_k ≥ 0,   s_k ≤ 3 Δ_k,   s_{k+1} ≤ 3 Δ_k
+///
+/// for every node and segment: halve the segment, and these say that no Bernstein coefficient of
+/// the slope on either half is negative. Sufficient, not necessary: a curve may be steeper at a
+/// node than three times a neighbouring chord and still rise. Conditions that no design within the
+/// bounds violates are left out, and for an odd curve those of its left half.
+///
+/// Source: the square [0, 3]² within the region of Fritsch and Carlson, SIAM J. Numer. Anal. 17
+/// (1980); de Boor and Swartz, J. Approx. Theory 21 (1977).
 struct MonotoneCondition {
-  int low = -1;
-  int high = -1;
-  double low_sign = 1.0;
-  double high_sign = 1.0;
-  double low_value = 0.0;
-  double high_value = 0.0;
+  std::string name;
+  std::vector<double> coefficients;  ///< one per variable
+  double bound = 0.0;
 };
 
 /// The free variables of one stage around a base design. Immutable.
@@ -45,7 +54,7 @@ class DesignSpace {
   /// values in `reference`, the case's initial model; a node at x = 0 or of value 0 stays. Throws
   /// io::InputError (with `context` as the file, the variable's name as the key) when a name is
   /// unknown, bounds are missing or crossed, the start lies outside them, or a curve is not odd or
-  /// not monotone where that is asked.
+  /// not monotone (somewhere between its nodes) where that is asked.
   static DesignSpace Make(const planar::Parameters<double>& base,
                           const planar::Parameters<double>& reference,
                           const std::vector<std::string>& free, const VariableTable& variables,

@@ -7,8 +7,8 @@
 #include <fmt/format.h>
 
 #include "core/io/version.h"
-#include "core/math/cubic_spline.h"
 #include "core/signal/spectrum.h"
+#include "models/planar/curve_spline.h"
 #include "optimisation/measures/conventions.h"
 #include "optimisation/study/quantities.h"
 #include "optimisation/study/scalar_fields.h"
@@ -118,8 +118,7 @@ const std::vector<report::Channel>& Channels() {
 }
 
 report::Curve MakeCurve(const planar::Curve<double>& curve) {
-  using Spline = math::CubicSpline<double, planar::kMaxCurveNodes>;
-  const Spline spline = Spline::MakeNatural(curve.count, curve.x.data(), curve.f.data());
+  const auto spline = planar::MakeSpline(curve);
   report::Curve sampled;
   constexpr int kPoints = 121;
   const double first = curve.x[0], last = curve.x[curve.count - 1];

@@ -39,7 +39,14 @@ planar::History Run(const Scenario& scenario, const planar::Parameters<double>& 
     options.step = 1e-5;
   }
   if (scenario.step > 0.0) options.step = scenario.step;
-  return planar::Simulate(parameters, excitation, options);
+  planar::History history = planar::Simulate(parameters, excitation, options);
+  const planar::IntegrationRecord& integration = history.integration;
+  statistics = {{"step", integration.step}, {"steps", static_cast<double>(integration.steps)}};
+  if (!std::isnan(integration.error_estimate)) {
+    statistics.emplace_back("error_estimate", integration.error_estimate);
+    statistics.emplace_back("error_bound", integration.error_bound);
+  }
+  return history;
 }
 
 nlohmann::ordered_json MakeValue(double value, const std::string& unit) {
@@ -92,6 +99,8 @@ ScenarioResult RunScenario(const Scenario& scenario) {
                               {"vdv_weighted", MakeValue(companions.weighted.vdv, "m/s^1.75")},
                               {"short_decay_time", MakeValue(companions.short_decay_time, "s")}};
   json["road_feel_gain"] = MakeValue(planar::CalcRoadFeelGain(model.parameters), "N m/(N m)");
+  json["static_road_feel_gain"] =
+      MakeValue(planar::CalcStaticRoadFeel(model.parameters), "N m/(N m)");
   json["steering_ratio"] = MakeValue(CalcSteeringRatio(model.parameters), "rad/rad");
   const double residual = history.CalcEnergyResidual();
   json["energy_residual"] = MakeValue(residual, "J/J");
@@ -101,7 +110,9 @@ ScenarioResult RunScenario(const Scenario& scenario) {
       "  energy residual {:.1e} of the energy supplied\n",
       companions.torsion_torque->peak_to_peak, companions.tie_rod_force->peak,
       companions.rack_force->peak, residual);
-  for (const auto& [name, value] : result.statistics) json["solver"][name] = value;
+  for (const auto& [name, value] : result.statistics) {
+    json["solver"][name] = MakeValue(value, name == "step" ? "s" : "1");
+  }
   return result;
 }
 

@@ -41,6 +41,7 @@ DesignResult MakeDesign(const std::string& name, const Parameters<double>& param
   design.parameters = parameters;
   design.gammas = evaluator.Calc(parameters);
   design.road_feel_gain = planar::CalcRoadFeelGain(parameters);
+  design.static_road_feel_gain = planar::CalcStaticRoadFeel(parameters);
   design.steering_ratio = CalcSteeringRatio(parameters);
   return design;
 }

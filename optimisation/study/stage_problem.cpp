@@ -44,22 +44,7 @@ void AddVariables(const DesignSpace& space, optimisation::Problem& problem) {
     problem.variables.push_back({v.name, v.unit, v.lower, v.upper, v.start});
   }
   for (const MonotoneCondition& condition : space.monotone()) {
-    optimisation::LinearConstraint constraint;
-    constraint.coefficients.assign(problem.variables.size(), 0.0);
-    if (condition.low >= 0) {
-      constraint.coefficients[condition.low] += condition.low_sign;
-    } else {
-      constraint.bound -= condition.low_value;
-    }
-    if (condition.high >= 0) {
-      constraint.coefficients[condition.high] -= condition.high_sign;
-    } else {
-      constraint.bound += condition.high_value;
-    }
-    const DesignVariable& named =
-        space.variables()[condition.high >= 0 ? condition.high : condition.low];
-    constraint.name = named.name + " not below its neighbour";
-    problem.linear.push_back(std::move(constraint));
+    problem.linear.push_back({condition.name, condition.coefficients, condition.bound, false});
   }
 }
 

@@ -13,6 +13,7 @@
 #include "core/io/error.h"
 #include "core/io/nearest_name.h"
 #include "core/io/units.h"
+#include "models/planar/planar_model.h"
 #include "models/planar/simulate.h"
 #include "models/planar/validate.h"
 #include "optimisation/study/design_space.h"
@@ -260,6 +261,13 @@ void CheckScenario(const Scenario& scenario, io::Check& given) {
   if (!model) return;
   SetScalars(model->parameters, scenario.design);
   CheckParameters(model->parameters, "design", check);
+  if (!check.is_good() || scenario.method != ScenarioMethod::kFast || scenario.step <= 1e-5) return;
+  const planar::Structure structure = planar::MakeModel(model->parameters).structure;
+  if (structure.has_events() || structure.friction_law == planar::FrictionLaw::kSmoothed) {
+    check.Fail("step", io::FormatQuantity(scenario.step, "s"),
+               "at most 1e-05 s, or none: dry friction, stops and free play are integrated by "
+               "Runge-Kutta");
+  }
 }
 
 }  // namespace kingpin::study

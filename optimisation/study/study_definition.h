@@ -54,7 +54,7 @@ using DesignValues = std::array<std::optional<double>, kScalarFieldCount>;
 struct CurveBounds {
   double fraction = 0.1;  ///< each node value may move by this fraction of its start value
   bool odd = false;       ///< one variable for x and −x
-  bool monotone = true;   ///< node values never decrease with x
+  bool monotone = true;   ///< never falls with x, at the nodes and between them
 };
 
 struct CurveTable {

@@ -21,6 +21,7 @@ struct DesignResult {
   planar::Parameters<double> parameters;
   measures::Gammas<double> gammas{};
   double road_feel_gain = 0.0;
+  double static_road_feel_gain = 0.0;  ///< its limit at 0 Hz
   double steering_ratio = 0.0;
   std::string relative_to;           ///< the design whose Γ_k divide
   double sum_of_ratios = 0.0;        ///< Σ ε_k Γ_k / Γ_k(relative_to), the paper's I_V

@@ -165,7 +165,10 @@ const Schema<CurveTable>& CurvesSchema() {
         .Positive()
         .Max(10.0);
     bounds.Boolean("odd", &CurveBounds::odd, "keep f(-x) = -f(x)").Default(false);
-    bounds.Boolean("monotone", &CurveBounds::monotone, "node values never decrease").Default(true);
+    bounds
+        .Boolean("monotone", &CurveBounds::monotone,
+                 "the curve never falls, at its nodes and between them")
+        .Default(true);
     Schema<CurveTable> s("curves", "Characteristics whose node values are design variables.");
     s.Section("assistance", &CurveTable::assistance, bounds,
               "power assistance force over torsion torque")
@@ -456,9 +459,11 @@ const Schema<Scenario>& ScenarioSchema() {
               {"cvode", ScenarioMethod::kCvode, "adaptive reference with event location"}},
              "time integration")
         .Default("fast");
-    s.Quantity("step", &Scenario::step, "s", "step of a fixed-step method")
+    s.Quantity("step", &Scenario::step, "s",
+               "largest step; at most 10 us with dry friction, stops or free play")
         .Positive()
         .Max(1e-2)
+        .OnlyIf("method", {"fast", "rk4"})
         .Optional();
     s.Check(CheckScenario);
     return s;

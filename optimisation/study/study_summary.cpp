@@ -43,12 +43,15 @@ nlohmann::ordered_json MakeDesignJson(const DesignResult& design) {
   json["sum_of_ratios"] = design.sum_of_ratios;
   json["relative_to"] = design.relative_to;
   json["road_feel_gain"] = design.road_feel_gain;
+  json["static_road_feel_gain"] = design.static_road_feel_gain;
   json["steering_ratio"] = design.steering_ratio;
   nlohmann::ordered_json geometry;
   const auto fields = ScalarFields<double>();
   for (int i = 0; i < 4; ++i) geometry[fields[i].name] = design.parameters.*(fields[i].member);
   json["geometry"] = geometry;
   const auto add_curve = [&](const char* name, const planar::Curve<double>& curve) {
+    json[name]["kind"] =
+        curve.kind == planar::CurveKind::kMonotone ? "monotone cubic" : "natural cubic";
     json[name]["x"] = std::vector<double>(curve.x.begin(), curve.x.begin() + curve.count);
     json[name]["f"] = std::vector<double>(curve.f.begin(), curve.f.begin() + curve.count);
   };

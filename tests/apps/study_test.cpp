@@ -6,6 +6,21 @@ namespace {
 
 using testing::HasSubstr;
 
+/// Writes a scenario: paper set A with another lateral stiffness over a half sine.
+std::string WriteScenario(const fs::path& folder, const std::string& lateral_stiffness) {
+  std::ofstream(folder / "scenario.yaml") << fmt::format(R"(kind: scenario
+name: half sine
+model: {{paper_set: {}/examples/paper/set_A.json}}
+design: {{lateral_stiffness: {}}}
+load_cases:
+  - name: strip
+    pulses:
+      - {{shape: half_sine, peak: 3 kN, start: 0.1 s, duration: 20 ms}}
+)",
+                                                         KINGPIN_SOURCE_DIR, lateral_stiffness);
+  return "scenario.yaml";
+}
+
 TEST_F(Program, AStudyWritesReportSummaryManifestAndSignals) {
   const Outcome outcome = Run("study " + WriteStudy() + " -o out");
   ASSERT_EQ(outcome.status, 0) << outcome.errors;
@@ -64,6 +79,50 @@ TEST_F(Program, TheDefaultAgreesWithCvodeOnTheShippedCarWithDryFriction) {
     const double value = cvode["measures"][key]["value"].get<double>();
     EXPECT_NEAR(fast["measures"][key]["value"].get<double>(), value, 1e-6 * value) << key;
   }
+}
+
+TEST_F(Program, TheManifestSaysHowARunWasIntegrated) {
+  const std::string root = KINGPIN_SOURCE_DIR;
+  const auto solver = [&](const std::string& arguments) {
+    const Outcome outcome = Run("simulate " + arguments + " -o out");
+    EXPECT_EQ(outcome.status, 0) << outcome.errors;
+    const auto manifest = nlohmann::json::parse(ReadAll(folder_ / "out/manifest.json"))["solver"];
+    const nlohmann::json summary = Summary("out")["solver"];
+    EXPECT_EQ(manifest.size(), summary.size());
+    for (const auto& [name, number] : summary.items()) EXPECT_EQ(manifest[name], number["value"]);
+    return manifest;
+  };
+  const std::string stiff = WriteScenario(folder_, "5e7 N/m");
+  const nlohmann::json fast = solver(stiff);
+  EXPECT_LE(fast["step"].get<double>(), 2.5e-4);
+  EXPECT_LE(fast["error_estimate"].get<double>(), fast["error_bound"].get<double>());
+  const nlohmann::json rk4 = solver(stiff + " --set method=rk4");
+  EXPECT_EQ(rk4["step"].get<double>(), 1e-5);
+  EXPECT_GT(rk4["steps"].get<double>(), 8e4);
+  EXPECT_FALSE(rk4.contains("error_estimate"));
+  EXPECT_GT(solver(stiff + " --set method=cvode")["steps"].get<double>(), 100);
+}
+
+TEST_F(Program, ARunThatMissesItsErrorBoundFails) {
+  const std::string scenario = WriteScenario(folder_, "1.3e9 N/m");
+  const Outcome outcome = Run("simulate " + scenario + " -o out");
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_THAT(outcome.errors,
+              testing::AllOf(HasSubstr("exceeds its bound 0.00015"), HasSubstr("method: cvode")));
+  EXPECT_FALSE(fs::exists(folder_ / "out/summary.json"));
+  const Outcome other = Run("simulate " + scenario + " --set method=cvode -o out");
+  EXPECT_EQ(other.status, 0) << other.errors;
+}
+
+TEST_F(Program, AStepThatWouldBeIgnoredIsAnError) {
+  const std::string scenario = WriteScenario(folder_, "5e7 N/m");
+  Outcome outcome = Run("simulate " + scenario + " --set method=cvode --set step='1 ms' -o out");
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_THAT(outcome.errors, testing::AllOf(HasSubstr("step: found"), HasSubstr("cvode")));
+  const std::string car = std::string(KINGPIN_SOURCE_DIR) + "/examples/c_segment";
+  outcome = Run("simulate " + car + " --set step='1 ms' -o out");  // it has dry friction
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_THAT(outcome.errors, testing::ContainsRegex("step: found .*, expected at most 1e-05 s"));
 }
 
 TEST_F(Program, ModesPrintsATableAndTheStateSpace) {

@@ -38,11 +38,7 @@ double Find(const DerivedQuantities& list, const std::string& name) {
   return 0.0;
 }
 
-double Evaluate(const Curve<double>& curve, double x) {
-  const auto spline = math::CubicSpline<double, kMaxCurveNodes>::MakeNatural(
-      curve.count, curve.x.data(), curve.f.data());
-  return math::EvaluateSpline(spline.shape(), spline.segments(), x);
-}
+double Evaluate(const Curve<double>& curve, double x) { return MakeSpline(curve)(x); }
 
 // Printed digits of the data set's table of planar values, half a unit of the last one.
 TEST(CarReduction, ValuesAreThoseOfTheDataSet) {
@@ -231,13 +227,61 @@ TEST(CarReduction, HydraulicForceIsPressureTimesArea) {
   const double area = 0.25 * kPi * (0.044 * 0.044 - 0.025 * 0.025);
   EXPECT_NEAR(area, 1.03e-3, 0.005e-3);
   EXPECT_NEAR(Evaluate(p.assist_force, 4.0), 28e5 * area, 1e-9);
-  // Beyond the table it settles at the pump's limit; the spline's ripple stays within 3 %.
-  for (const double torque : {7.0, 7.5, 8.5, 9.0, 12.0}) {
-    EXPECT_NEAR(Evaluate(p.assist_force, torque), 100e5 * area, 0.03 * 100e5 * area) << torque;
+  // Beyond the table it stays at the pump's limit.
+  for (const double torque : {7.0, 7.5, 8.5, 9.0, 12.0, 100.0}) {
+    EXPECT_NEAR(Evaluate(p.assist_force, torque), 100e5 * area, 1e-9) << torque;
   }
-  for (double torque = 0.0; torque < 7.0; torque += 0.05) {
-    EXPECT_GE(Evaluate(p.assist_force, torque + 0.05), Evaluate(p.assist_force, torque));
+}
+
+TEST(CarReduction, AssistanceNeverFallsOrOvershootsAndIsFlatBeyondItsTable) {
+  for (const auto assistance : {O::Assistance::kHydraulic, O::Assistance::kElectric}) {
+    O options;
+    options.assistance = assistance;
+    const Curve<double> curve = MakePlanarParameters(CSegment(), options).assist_force;
+    const auto spline = MakeSpline(curve);
+    double last = 0.0;
+    const double highest = curve.f[static_cast<std::size_t>(curve.count) - 1];
+    for (int i = 0; i <= 20000; ++i) {
+      const double torque = 1e-3 * i;
+      const double force = spline(torque);
+      // To rounding: sums of increments.
+      EXPECT_GE(force, last - 1e-12 * highest) << torque;
+      EXPECT_LE(force, highest * (1.0 + 1e-12)) << torque;
+      EXPECT_GE(spline.CalcSlope(torque), 0.0) << torque;
+      last = force;
+    }
+    EXPECT_EQ(spline.CalcSlope(20.0), 0.0);
   }
+}
+
+// Its table begins with a dead band: no push at all, in particular none the wrong way.
+TEST(CarReduction, ElectricAssistanceRestsInItsDeadBand) {
+  O options;
+  options.assistance = O::Assistance::kElectric;
+  const auto spline = MakeSpline(MakePlanarParameters(CSegment(), options).assist_force);
+  for (double torque = 0.0; torque < 0.5; torque += 0.01) {
+    EXPECT_EQ(spline(torque), 0.0) << torque;
+    EXPECT_EQ(spline.CalcSlope(torque), 0.0) << torque;
+  }
+}
+
+// 800 N m/rad are those of the whole column: its shafts (816 N m/rad) with a bar whose stop is
+// metal. Were they the bar's alone, the stop would be no stiffer than the shafts behind it.
+TEST(CarReduction, BeyondItsStopTheColumnIsNearlyItsShafts) {
+  DerivedQuantities record;
+  const Parameters<double> p = MakePlanarParameters(CSegment(), {}, &record);
+  const double shafts = Find(record, "column.shafts");
+  EXPECT_NEAR(shafts, 816.0, 0.5);
+  EXPECT_DOUBLE_EQ(p.stop_stiffness, 800.0);
+  EXPECT_LT(p.stop_stiffness, shafts);
+  EXPECT_GT(1.0 / (1.0 / p.stop_stiffness - 1.0 / shafts), 3e4);
+}
+
+TEST(CarReduction, PaperLikeHasNoDampingOfTheRack) {
+  EXPECT_DOUBLE_EQ(MakePlanarParameters(CSegment(), {}).rack_damping, 600.0);
+  const Parameters<double> p = MakePlanarParameters(CSegment(), O::PaperLike());
+  EXPECT_EQ(p.rack_damping, 0.0);
+  EXPECT_EQ(p.hands_damping, 0.0);
 }
 
 TEST(CarReduction, ElectricForceFollowsTheSpeedFactor) {
@@ -324,8 +368,7 @@ TEST(CarReduction, KickOfTheReducedCarIsThatOfTheDataSet) {
     p.rack_mass += extra[i];
     p.lateral_stiffness = 2.3e6;
     p.carrier_yaw_inertia = 0.62;
-    SimulationOptions simulation;
-    simulation.step = 2e-5;
+    const SimulationOptions simulation;
     const History history = Simulate(p, Excitation({pulse}), simulation);
     double low = 0.0;
     double high = 0.0;
@@ -335,10 +378,12 @@ TEST(CarReduction, KickOfTheReducedCarIsThatOfTheDataSet) {
       high = std::max(high, a);
       energy += a * a * simulation.sample_interval;
     }
-    // Curve through the boost table, recession curve and damping of the data set's runs are not
-    // printed: the level and the shape over rack mass are what must agree.
-    EXPECT_NEAR(1e3 * (high - low), gamma_1[i], 0.10 * gamma_1[i]) << extra[i];
-    EXPECT_NEAR(1e3 * std::sqrt(energy), gamma_5[i], 0.12 * gamma_5[i]) << extra[i];
+    // The curve through the boost table, the recession curve and the damping of the data set's runs
+    // are not printed: the level and the shape over rack mass are what must agree. Γ_1 is off by
+    // 0.8, -0.1, -2.4, -5.8, -0.8 %, Γ_5 by 1.8, 6.8, -3.5, 10.5, 10.6 %. The rack's damping does
+    // not explain it: with it 0.5, -1.8, -4.1, -7.2, -1.6 and 0.3, 4.6, -4.5, 8.7, 9.9 %.
+    EXPECT_NEAR(1e3 * (high - low), gamma_1[i], 0.06 * gamma_1[i]) << extra[i];
+    EXPECT_NEAR(1e3 * std::sqrt(energy), gamma_5[i], 0.11 * gamma_5[i]) << extra[i];
   }
 }
 

@@ -13,10 +13,7 @@
 namespace kingpin::planar {
 namespace {
 
-double CalcSlopeAtZero(const Curve<double>& curve) {
-  return math::CubicSpline<double>::MakeNatural(curve.count, curve.x.data(), curve.f.data())
-      .CalcSlope(0.0);
-}
+double CalcSlopeAtZero(const Curve<double>& curve) { return MakeSpline(curve).CalcSlope(0.0); }
 
 std::vector<Parameters<double>> Variants() {
   std::vector<Parameters<double>> all;
@@ -64,6 +61,7 @@ TEST(RoadFeel, StaticGainIsLeverAndShare) {
     const double gain =
         CalcHeldWheelGain(p, entries, CalcSlopeAtZero(p.longitudinal_force), assist, 0.0);
     EXPECT_NEAR(gain, expected, 1e-10 * expected) << set.name;
+    EXPECT_EQ(CalcStaticRoadFeel(p), gain) << set.name;
   }
 }
 
@@ -159,6 +157,20 @@ TEST(RoadFeel, GradientWithRespectToTheDesignIsExact) {
     EXPECT_NEAR(exact.v, with(i, x), 1e-13 * exact.v);  // divisions are ordered differently
     EXPECT_NEAR(exact.d[0], difference, 1e-7 * std::abs(exact.v / x)) << i;
   }
+}
+
+// An electric motor weighs 465 kg at the rack; on the held column that swings within the band of
+// the mean. The static gain does not know it.
+TEST(RoadFeel, AHeavyRackResonatesInTheMeanAndNotInTheStaticGain) {
+  auto p = PlanarCar();
+  p.assist_force.count = 0;
+  p.aligning_stiffness = 700.0;
+  p.rack_damping = 600.0;
+  const double mean = CalcRoadFeelGain(p), at_rest = CalcStaticRoadFeel(p);
+  EXPECT_NEAR(mean, at_rest, 0.1 * at_rest);
+  p.rack_mass += 465.0;
+  EXPECT_EQ(CalcStaticRoadFeel(p), at_rest);
+  EXPECT_GT(CalcRoadFeelGain(p), 1.2 * mean);
 }
 
 TEST(RoadFeel, AssistanceTakesFeelAway) {

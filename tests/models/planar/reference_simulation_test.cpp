@@ -72,6 +72,17 @@ TEST(ReferenceSimulation, AgreesWithRungeKutta) {
   }
 }
 
+TEST(ReferenceSimulation, AgreesWithTheFastMethod) {
+  for (const auto& set : sets::AllSets()) {
+    const Excitation excitation(set.pulses);
+    // Pointwise, in the largest value; see FastMethodAgreesWithFineRungeKuttaInEverySignal.
+    EXPECT_LT(CalcWorstDistance(Simulate(set.parameters, excitation, {}),
+                                SimulateReference(set.parameters, excitation).history),
+              2e-5)
+        << set.name;
+  }
+}
+
 TEST(ReferenceSimulation, TighterTolerancesComeNearerToRungeKutta) {
   const auto set = sets::SetA();
   const Excitation excitation(set.pulses);

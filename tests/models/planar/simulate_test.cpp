@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/io/error.h"
@@ -76,7 +77,10 @@ TEST(Simulate, ADivergingRunSaysWhenAndInWhichCoordinate) {
     FAIL() << "the stiff set is unstable at this step";
   } catch (const io::RunError& error) {
     EXPECT_THAT(error.what(),
-                testing::ContainsRegex("diverges at t = 0\\.[0-9]+ s in coordinate "));
+                testing::AllOf(
+                    testing::ContainsRegex("diverges at t = 0\\.[0-9]+ s in coordinate "),
+                    testing::HasSubstr("with steps of 0.0005 s: they are too long for this model, "
+                                       "or the model itself is unstable")));
   }
 }
 
@@ -121,8 +125,65 @@ TEST(Simulate, FastMethodIsOfHighOrder) {
     error[i] = CalcLargestDifference(h.rim_acceleration, fine.rim_acceleration);
   }
   // Seven, less what the start adds: it is of fourth order, with a constant that its quarter steps
-  // make small.
+  // make small. That the weights are those of order seven is tested in exponential_adams_test.cpp.
   EXPECT_GT(std::log2(error[0] / error[1]), 5) << error[0] << ' ' << error[1];
+}
+
+// A lateral support of 1.3e9 N/m: 700 Hz, damped far beyond what the fast method can follow.
+TEST(Simulate, AnErrorEstimateThatStaysTooLargeIsAnError) {
+  PaperSet set = ReadSet("A");
+  set.parameters.lateral_stiffness = 1.3e9;
+  Pulse pulse;
+  pulse.amplitude = 3000;
+  pulse.start = 0.1;
+  pulse.duration = 0.02;
+  EXPECT_THAT([&] { Simulate(set.parameters, Excitation({pulse}), {}); },
+              testing::ThrowsMessage<io::RunError>(testing::AllOf(
+                  testing::ContainsRegex("estimated relative error [0-9.e+-]+ exceeds its bound "
+                                         "0\\.00015 even with steps of 3\\.[0-9]+e-06 s"),
+                  testing::HasSubstr("method: cvode"))));
+}
+
+TEST(Simulate, SaysHowItIntegrated) {
+  const PaperSet set = ReadSet("A");
+  const Excitation excitation(set.pulses);
+  const IntegrationRecord fast = Simulate(set.parameters, excitation, {}).integration;
+  EXPECT_EQ(fast.step, 2.5e-4);
+  EXPECT_GT(fast.steps, 3000);
+  EXPECT_GT(fast.error_estimate, 0);
+  EXPECT_EQ(fast.error_bound, 1.5e-4);
+  EXPECT_LE(fast.error_estimate, fast.error_bound);
+  const IntegrationRecord rk4 = Simulate(set.parameters, excitation, MakeOptions(1e-4)).integration;
+  EXPECT_EQ(rk4.step, 1e-4);
+  EXPECT_GT(rk4.steps, 8000);
+  EXPECT_TRUE(std::isnan(rk4.error_estimate));
+}
+
+TEST(Simulate, AStepThatDryFrictionCannotUseIsNamed) {
+  PaperSet set = ReadSet("A");
+  set.parameters.friction_law = FrictionLaw::kCoulomb;
+  set.parameters.friction_constant = 50;
+  SimulationOptions options;
+  options.step = 2e-5;
+  EXPECT_THAT([&] { Simulate(set.parameters, Excitation(set.pulses), options); },
+              testing::ThrowsMessage<io::InputError>(
+                  testing::HasSubstr("step: found 2e-05, expected at most 1e-05 s")));
+}
+
+TEST(Simulate, AForceAtRestIsNamed) {
+  PaperSet set = ReadSet("A");
+  Curve<double>& curve = set.parameters.longitudinal_force;
+  const auto simulate = [&] { Simulate(set.parameters, Excitation(set.pulses), {}); };
+  const auto says = testing::ThrowsMessage<io::InputError>(
+      testing::AllOf(testing::HasSubstr("longitudinal_force: found"),
+                     testing::HasSubstr("expected no force at rest")));
+  curve.f[3] = 40;  // the node at zero
+  EXPECT_THAT(simulate, says);
+  curve.f[3] = 0;
+  EXPECT_NO_THROW(simulate());
+  // Without a node at zero the spline itself counts.
+  curve.x[3] = 1e-4;
+  EXPECT_THAT(simulate, says);
 }
 
 TEST(Simulate, RejectsGridsThatDoNotFit) {

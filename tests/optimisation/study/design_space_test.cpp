@@ -1,9 +1,14 @@
 #include "optimisation/study/design_space.h"
 
+#include <algorithm>
+#include <numeric>
+#include <random>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/io/error.h"
+#include "models/planar/curve_spline.h"
 #include "models/planar/paper_set.h"
 #include "optimisation/study/quantities.h"
 
@@ -100,20 +105,114 @@ TEST(DesignSpace, NodeValuesMayMoveByTheFractionOfTheInitialCurve) {
   }
 }
 
-TEST(DesignSpace, EveryMonotoneConditionHoldsAtTheStartAndForbidsAFall) {
-  const auto base = SetB();
-  const DesignSpace space =
-      DesignSpace::Make(base, base, {"assistance", "longitudinal"}, {}, Curves(0.9, true), "");
-  const std::vector<double> x = space.Extract(base);
-  const auto value = [&](const MonotoneCondition& c, bool low) {
-    const int index = low ? c.low : c.high;
-    if (index < 0) return low ? c.low_value : c.high_value;
-    return (low ? c.low_sign : c.high_sign) * x[index];
-  };
-  ASSERT_FALSE(space.monotone().empty());
-  for (const MonotoneCondition& c : space.monotone()) {
-    EXPECT_LT(value(c, true), value(c, false));
+bool Fulfils(const DesignSpace& space, const std::vector<double>& x) {
+  return std::all_of(
+      space.monotone().begin(), space.monotone().end(), [&](const MonotoneCondition& c) {
+        return std::inner_product(x.begin(), x.end(), c.coefficients.begin(), 0.0) <= c.bound;
+      });
+}
+
+// Looks at the curve, not at its nodes: the least slope on a fine grid over the steepest chord.
+double CalcLeastSlopeDensely(const planar::Curve<double>& curve) {
+  const auto spline = planar::MakeSpline(curve);
+  double least = 0.0, steepest = 0.0;
+  for (int k = 0; k + 1 < curve.count; ++k) {
+    const double h = curve.x[k + 1] - curve.x[k];
+    steepest = std::max(steepest, (curve.f[k + 1] - curve.f[k]) / h);
+    for (int i = 0; i <= 200; ++i) {
+      least = std::min(least, spline.CalcSlope(curve.x[k] + h * i / 200));
+    }
   }
+  return least / steepest;
+}
+
+bool NodesNeverFall(const planar::Curve<double>& curve) {
+  return std::is_sorted(curve.f.begin(), curve.f.begin() + curve.count);
+}
+
+TEST(DesignSpace, MonotoneConditionsForbidACurveToFallBetweenItsNodes) {
+  std::mt19937_64 random(7);
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  int rising = 0, falling_between = 0;
+  for (const bool odd : {false, true}) {
+    for (const char* name : {"A", "B", "C"}) {
+      const auto base = planar::ReadPaperSet(std::string(KINGPIN_SOURCE_DIR) +
+                                             "/examples/paper/set_" + name + ".json")
+                            .parameters;
+      const DesignSpace space =
+          DesignSpace::Make(base, base, {"assistance", "longitudinal"}, {}, Curves(0.9, odd), "");
+      ASSERT_FALSE(space.monotone().empty());
+      ASSERT_TRUE(Fulfils(space, space.Extract(base)));
+      for (int i = 0; i < 3000; ++i) {
+        // Near the start most designs rise, far from it hardly one does.
+        const double reach = unit(random);
+        std::vector<double> x;
+        for (const DesignVariable& v : space.variables()) {
+          x.push_back(v.start + reach * (v.lower + unit(random) * (v.upper - v.lower) - v.start));
+        }
+        const auto design = space.Apply(x);
+        const double least = std::min(CalcLeastSlopeDensely(design.assist_force),
+                                      CalcLeastSlopeDensely(design.longitudinal_force));
+        if (Fulfils(space, x)) {
+          ++rising;
+          EXPECT_GE(least, -1e-12);
+        }
+        if (least < -1e-3 && NodesNeverFall(design.assist_force) &&
+            NodesNeverFall(design.longitudinal_force)) {
+          ++falling_between;
+          EXPECT_FALSE(Fulfils(space, x));
+        }
+      }
+    }
+  }
+  EXPECT_GT(rising, 1000);
+  EXPECT_GT(falling_between, 100);  // looking at the nodes would not have been enough
+}
+
+TEST(DesignSpace, OfAMonotoneCubicTheNodesDecide) {
+  auto base = SetB();
+  base.assist_force.kind = planar::CurveKind::kMonotone;
+  const DesignSpace space =
+      DesignSpace::Make(base, base, {"assistance"}, {}, Curves(0.9, false), "");
+  std::mt19937_64 random(7);
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  int rising = 0;
+  for (int i = 0; i < 3000; ++i) {
+    const double reach = unit(random);
+    std::vector<double> x;
+    for (const DesignVariable& v : space.variables()) {
+      x.push_back(v.start + reach * (v.lower + unit(random) * (v.upper - v.lower) - v.start));
+    }
+    const auto curve = space.Apply(x).assist_force;
+    EXPECT_EQ(Fulfils(space, x), NodesNeverFall(curve));
+    if (!Fulfils(space, x)) continue;
+    ++rising;
+    EXPECT_GE(CalcLeastSlopeDensely(curve), -1e-12);
+  }
+  EXPECT_GT(rising, 500);
+}
+
+TEST(DesignSpace, ConditionsThatTheBoundsImplyAreLeftOut) {
+  const auto base = SetB();
+  const auto count = [&](double fraction) {
+    return DesignSpace::Make(base, base, {"assistance"}, {}, Curves(fraction, false), "")
+        .monotone()
+        .size();
+  };
+  EXPECT_EQ(count(0.01), 0);
+  EXPECT_GT(count(0.9), count(0.3));
+}
+
+TEST(DesignSpace, ANaturalCubicThatFallsBetweenItsNodesIsNamed) {
+  auto base = SetB();
+  base.assist_force.f = {0, 10, 20, 5000, 5010, 5020, 5030};
+  EXPECT_THAT(
+      MessageOf(
+          [&] { DesignSpace::Make(base, base, {"assistance"}, {}, Curves(0.1, false), "s.yaml"); }),
+      testing::AllOf(HasSubstr("curves.assistance"), HasSubstr("falls between its nodes at x = "),
+                     HasSubstr("monotone: false")));
+  base.assist_force.kind = planar::CurveKind::kMonotone;
+  EXPECT_NO_THROW(DesignSpace::Make(base, base, {"assistance"}, {}, Curves(0.1, false), ""));
 }
 
 TEST(DesignSpace, BadInputIsNamed) {

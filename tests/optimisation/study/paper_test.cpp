@@ -4,7 +4,11 @@
 
 #include <gtest/gtest.h>
 
+#include "core/io/schema.h"
+#include "models/parameters/car_schema.h"
+#include "models/planar/car_reduction.h"
 #include "models/planar/paper_set.h"
+#include "models/planar/reference_simulation.h"
 #include "models/planar/simulate.h"
 #include "optimisation/study/design_evaluator.h"
 #include "optimisation/study/run_study.h"
@@ -90,6 +94,66 @@ TEST(Paper, TheFastMethodGivesTheMeasuresOfRungeKuttaTo1e6) {
       for (int k = 0; k < 5; ++k) {
         EXPECT_NEAR(fast[k], reference[k], 1e-6 * reference[k])
             << name << " " << design << " Γ_" << k + 1;
+      }
+    }
+  }
+}
+
+std::array<double, 5> CalcByCvode(const DesignEvaluator& evaluator,
+                                  const planar::Parameters<double>& parameters,
+                                  const planar::Excitation& excitation) {
+  measures::GammaWorkspace workspace(evaluator.plan());
+  return workspace.Update(
+      planar::SimulateReference(parameters, excitation).history.rim_acceleration);
+}
+
+TEST(FastMethod, GivesTheMeasuresOfCvodeOnTheSets) {
+  for (const char* name : {"A", "B", "C"}) {
+    const planar::PaperSet set = ReadSet(name);
+    DesignEvaluator evaluator = MakeEvaluator(set);
+    for (const char* design : kDesigns) {
+      const auto& parameters = set.designs.at(design).parameters;
+      const auto fast = evaluator.Calc(parameters);
+      const auto reference = CalcByCvode(evaluator, parameters, planar::Excitation(set.pulses));
+      for (int k = 0; k < 5; ++k) {
+        EXPECT_NEAR(fast[k], reference[k], 1e-6 * reference[k])
+            << name << " " << design << " Γ_" << k + 1;
+      }
+    }
+  }
+}
+
+// What of car mode runs in lanes: no dry friction, no stops, no play, but everything else.
+TEST(FastMethod, GivesTheMeasuresOfCvodeOnTheCarWithSmoothOptions) {
+  using O = planar::CarModeOptions;
+  const parameters::Car car =
+      io::ReadFile(parameters::CarSchema(),
+                   std::string(KINGPIN_SOURCE_DIR) + "/models/data/cars/c_segment/car.yaml");
+  planar::Pulse pulse;
+  pulse.amplitude = 3000.0;
+  pulse.start = 0.1;
+  pulse.duration = 0.02;
+  const planar::Excitation excitation({pulse});
+  DesignEvaluator evaluator({{"strip", 1.0, excitation}}, 1.0, 1e-3,
+                            measures::MakeDefaultConventions(), 1);
+  for (const auto assistance :
+       {O::Assistance::kNone, O::Assistance::kHydraulic, O::Assistance::kElectric}) {
+    for (const auto aligning : {O::Aligning::kConstant, O::Aligning::kLagged}) {
+      for (const auto hands : {O::HandsOnRim::kFree, O::HandsOnRim::kFirm}) {
+        O options;
+        options.assistance = assistance;
+        options.aligning = aligning;
+        options.hands = hands;
+        options.friction = O::Friction::kNone;
+        options.torsion_bar_stops = false;
+        const auto parameters = planar::MakePlanarParameters(car, options);
+        const auto fast = evaluator.Calc(parameters);
+        const auto reference = CalcByCvode(evaluator, parameters, excitation);
+        for (int k = 0; k < 5; ++k) {
+          EXPECT_NEAR(fast[k], reference[k], 1e-6 * reference[k])
+              << static_cast<int>(assistance) << static_cast<int>(aligning)
+              << static_cast<int>(hands) << " Γ_" << k + 1;
+        }
       }
     }
   }
