@@ -34,8 +34,13 @@ std::vector<ActiveConstraint> FindActiveConstraints(Evaluator& evaluator, const 
   for (Eigen::Index i = 0; i < n; ++i) {
     const Variable& variable = problem.variables[i];
     if (variable.lower == variable.upper) continue;
-    if (x[i] == variable.lower) add(variable.name, "lower bound", -Eigen::VectorXd::Unit(n, i));
-    if (x[i] == variable.upper) add(variable.name, "upper bound", Eigen::VectorXd::Unit(n, i));
+    const double near = tolerance * range[i];
+    if (x[i] - variable.lower <= near) {
+      add(variable.name, "lower bound", -Eigen::VectorXd::Unit(n, i));
+    }
+    if (variable.upper - x[i] <= near) {
+      add(variable.name, "upper bound", Eigen::VectorXd::Unit(n, i));
+    }
   }
   for (const LinearConstraint& row : problem.linear) {
     if (CalcLinearViolation(problem, row, x) < -tolerance) continue;

@@ -25,12 +25,6 @@ double CalcWeightedRatios(const std::vector<Measure>& measures, const Design& re
   return any ? sum : kMissing;
 }
 
-double CalcObjective(const std::vector<Measure>& measures, const Design& reference,
-                     const Design& design) {
-  return std::isfinite(design.objective) ? design.objective
-                                         : CalcWeightedRatios(measures, reference, design);
-}
-
 std::optional<size_t> FindChosenDesign(const std::vector<Measure>& measures, const Case& c) {
   if (c.designs.empty()) return std::nullopt;
   if (c.chosen >= 0 && static_cast<size_t>(c.chosen) < c.designs.size()) {
@@ -39,7 +33,7 @@ std::optional<size_t> FindChosenDesign(const std::vector<Measure>& measures, con
   std::optional<size_t> best;
   double lowest = std::numeric_limits<double>::infinity();
   for (size_t i = 0; i < c.designs.size(); ++i) {
-    const double value = CalcObjective(measures, c.designs[0], c.designs[i]);
+    const double value = CalcWeightedRatios(measures, c.designs[0], c.designs[i]);
     if (std::isfinite(value) && value < lowest) {
       lowest = value;
       best = i;
@@ -63,8 +57,8 @@ std::string MakeVerdict(const std::vector<Measure>& measures, const Case& c) {
   const Design& reference = c.designs[0];
   const Design& design = c.designs[*chosen];
   std::string out;
-  const double before = CalcObjective(measures, reference, reference);
-  const double after = CalcObjective(measures, reference, design);
+  const double before = CalcWeightedRatios(measures, reference, reference);
+  const double after = CalcWeightedRatios(measures, reference, design);
   if (std::isfinite(before) && std::isfinite(after)) {
     out = fmt::format("Design “{}” {} the kickback index from {} to {} ({}).", design.name,
                       after <= before ? "lowers" : "raises", FormatNumber(before, 3),

@@ -15,12 +15,9 @@ double GetValue(const std::vector<double>& values, size_t i);
 double CalcWeightedRatios(const std::vector<Measure>& measures, const Design& reference,
                           const Design& design);
 
-/// What the design is judged by: its objective, else I_V.
-double CalcObjective(const std::vector<Measure>& measures, const Design& reference,
-                     const Design& design);
-
-/// The design the verdict is about: Case::chosen, else the one with the lowest objective, else the
-/// last. Absent when there are no designs.
+/// The design the verdict is about: Case::chosen, else the one with the lowest I_V relative to the
+/// first design, else the last. (Objectives of searches may be relative to other designs.) Absent
+/// when there are no designs.
 std::optional<size_t> FindChosenDesign(const std::vector<Measure>& measures, const Case& c);
 
 /// One or two sentences from the numbers, or Case::verdict.

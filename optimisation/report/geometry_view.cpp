@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "optimisation/report/html.h"
+#include "optimisation/report/label_placer.h"
 #include "optimisation/report/line_chart.h"
 #include "optimisation/report/number_format.h"
 #include "optimisation/report/svg.h"
@@ -113,38 +114,6 @@ std::string DrawSupport(const View& view, const CornerGeometry& g, const Point2&
   return out +
          fmt::format(R"(<path class="ln" d="{}" stroke="{}" stroke-width="1.2"/>)", d, colour);
 }
-
-/// Puts names beside points so that they do not cover each other.
-class Labels {
- public:
-  void Reserve(const Pixel& p) { boxes_.push_back({p.x - 5, p.y - 5, p.x + 5, p.y + 5}); }
-  std::string Place(const Pixel& p, const std::string& symbol, double width) {
-    static constexpr double kWays[][2] = {{1, -1}, {1, 1}, {-1, -1}, {-1, 1},
-                                          {0, -1}, {0, 1}, {1, 0},   {-1, 0}};
-    for (const double distance : {8.0, 16.0, 26.0}) {
-      for (const auto& way : kWays) {
-        const double x = p.x + way[0] * distance;
-        const double y = p.y + way[1] * distance;
-        const double left = way[0] > 0 ? x : way[0] < 0 ? x - width : x - 0.5 * width;
-        const Box box = {left - 2, y - 8, left + width + 2, y + 8};
-        if (std::none_of(boxes_.begin(), boxes_.end(), [&](const Box& b) {
-              return b.left < box.right && box.left < b.right && b.top < box.bottom &&
-                     box.top < b.bottom;
-            })) {
-          boxes_.push_back(box);
-          return SvgText(left, y + 4.0, "start", symbol, "halo b");
-        }
-      }
-    }
-    return SvgText(p.x + 8.0, p.y - 8.0, "start", symbol, "halo b");
-  }
-
- private:
-  struct Box {
-    double left, top, right, bottom;
-  };
-  std::vector<Box> boxes_;
-};
 
 std::string DrawDot(const View& view, const Point2& p, Marker marker, const std::string& colour,
                     bool filled) {
@@ -290,12 +259,16 @@ std::string DrawGeometry(const std::vector<GeometryItem>& items) {
       R"(<svg class="plot top" viewBox="0 0 {} {}" role="img" aria-label="Geometry seen from above, to scale">)",
       FormatPixel(kWidth), FormatPixel(height));
   for (size_t i = 0; i < items.size(); ++i) {
-    svg += DrawCorner(view, *items[i].design, i, StyleOf(items[i].style), kWidth);
+    // The rack ends before the steering wheel that is drawn beside it.
+    svg += DrawCorner(view, *items[i].design, i, StyleOf(items[i].style), kWidth - dial_space);
   }
-  Labels labels;
+  LabelPlacer labels(0.0, 0.0, kWidth, height);
   for (const GeometryItem& item : items) {
     const CornerGeometry& g = item.design->geometry;
-    for (const Point2& p : CollectOutline(g)) labels.Reserve(view.Map(p));
+    for (const Point2& p : CollectOutline(g)) {
+      const Pixel a = view.Map(p);
+      labels.Reserve(a.x, a.y);
+    }
     for (const auto& [at, direction] :
          {std::pair{g.lateral_support, g.lateral_direction},
           std::pair{g.longitudinal_support, g.longitudinal_direction}}) {
@@ -303,23 +276,27 @@ std::string DrawGeometry(const std::vector<GeometryItem>& items) {
       const Pixel a = view.Map(at);
       const Pixel ground = MapGround(view, g, at, direction);
       for (const double s : {0.25, 0.5, 0.75, 1.0}) {
-        labels.Reserve({a.x + s * (ground.x - a.x), a.y + s * (ground.y - a.y)});
+        labels.Reserve(a.x + s * (ground.x - a.x), a.y + s * (ground.y - a.y));
       }
     }
   }
   const CornerGeometry& last = items.back().design->geometry;
-  const auto name = [&](const Point2& p, const char* text, double width) {
-    if (IsDrawn(p)) svg += labels.Place(view.Map(p), text, width);
+  if (moving) {
+    labels.ReserveBox(kWidth - 2.0 * kDialRadius - 40.0, 0.0, kWidth, 2.0 * kDialRadius + 60.0);
+  }
+  const auto name = [&](const Point2& p, const char* text) {
+    if (!IsDrawn(p)) return;
+    const Pixel a = view.Map(p);
+    labels.Add(a.x, a.y, text);
   };
-  svg += "<g class=\"names\">";
-  name(last.kingpin, "K kingpin axis", 82);
-  name(last.rod_outer, "tie-rod ball joint", 94);
-  name(last.rod_inner, "rack end", 48);
-  name(last.lateral_support, "L lateral", 50);
-  name(last.longitudinal_support, "N longitudinal", 76);
-  name(last.force_point, "road force", 58);
-  name(last.centre_of_mass, "S", 9);
-  svg += "</g>";
+  name(last.kingpin, "K kingpin axis");
+  name(last.rod_outer, "tie-rod ball joint");
+  name(last.rod_inner, "rack end");
+  name(last.lateral_support, "L lateral");
+  name(last.longitudinal_support, "N longitudinal");
+  name(last.force_point, "road force");
+  name(last.centre_of_mass, "S");
+  svg += "<g class=\"names\">" + labels.Draw("halo b") + "</g>";
 
   // Scale and axes.
   const double bar = view.scale * 0.1;

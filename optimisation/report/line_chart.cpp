@@ -7,6 +7,7 @@
 
 #include "optimisation/report/decimation.h"
 #include "optimisation/report/html.h"
+#include "optimisation/report/label_placer.h"
 #include "optimisation/report/plot_area.h"
 #include "optimisation/report/svg.h"
 
@@ -108,7 +109,7 @@ std::string DrawBand(const Band& band, const AxisMap& x, const AxisMap& y) {
                      fmt::join(upper, "L"));
 }
 
-std::string DrawSeries(const Series& s, const AxisMap& x, const AxisMap& y, double right) {
+std::string DrawSeries(const Series& s, const AxisMap& x, const AxisMap& y) {
   const size_t n = std::min(s.x.size(), s.y.size());
   std::vector<PixelPoint> points;
   points.reserve(s.steps ? 2 * n : n);
@@ -130,14 +131,6 @@ std::string DrawSeries(const Series& s, const AxisMap& x, const AxisMap& y, doub
       out += SvgMarker(s.style.marker, x.ToPixel(s.x[i]), y.ToPixel(s.y[i]), 3.2, s.style.colour,
                        s.filled);
     }
-  }
-  for (size_t i = 0; i < std::min(n, s.labels.size()); ++i) {
-    const double px = x.ToPixel(s.x[i]);
-    const double py = y.ToPixel(s.y[i]);
-    if (s.labels[i].empty() || std::isnan(px) || std::isnan(py)) continue;
-    const bool flip = px + 10.0 + EstimateTextWidth(s.labels[i], kFont) > right;
-    out += SvgText(px + (flip ? -8.0 : 8.0), py - 6.0, flip ? "end" : "start",
-                   SymbolSvg(s.labels[i]), "halo");
   }
   return out;
 }
@@ -227,9 +220,17 @@ std::string DrawLineChartSvg(const LineChart& chart) {
                      FormatPixel(bottom - top));
   for (const Band& b : chart.bands) out += DrawBand(b, x, y);
   for (const Series& s : chart.series) {
-    out += DrawSeries(s, x, s.secondary ? right_axis : y, right);
+    out += DrawSeries(s, x, s.secondary ? right_axis : y);
   }
   out += "</svg>";
+  LabelPlacer labels(left, top, right, bottom);
+  for (const Series& s : chart.series) {
+    for (size_t i = 0; i < std::min({s.x.size(), s.y.size(), s.labels.size()}); ++i) {
+      const double py = (s.secondary ? right_axis : y).ToPixel(s.y[i]);
+      labels.Add(x.ToPixel(s.x[i]), py, s.labels[i]);
+    }
+  }
+  out += labels.Draw("halo");
   for (const ReferenceLine& r : chart.reference_lines) {
     const double p = r.vertical ? x.ToPixel(r.value) : y.ToPixel(r.value);
     if (std::isnan(p) || (r.vertical ? p < left || p > right : p < top || p > bottom)) continue;

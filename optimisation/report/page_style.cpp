@@ -82,29 +82,50 @@ details .scroll{margin-top:0}
 dl{display:grid;grid-template-columns:minmax(140px,max-content) minmax(0,1fr);gap:4px 18px;font-size:13px;margin:6px 0 12px;max-width:120ch}
 dt{font-weight:600}
 dd{margin:0}
-code{font:12px ui-monospace,"DejaVu Sans Mono",Menlo,Consolas,monospace;overflow-wrap:anywhere}
+code{font:12px ui-monospace,"DejaVu Sans Mono",Menlo,Consolas,monospace}
+p code,dd code,td.hash code{overflow-wrap:anywhere}
+table.parameters td:first-child{white-space:nowrap}
+table.parameters td.muted{overflow-wrap:anywhere}
 @media screen and (max-width:1120px){.layout{display:block}nav{position:static;max-height:none;border-right:0;border-bottom:1px solid var(--line);columns:3}main{padding:18px}}
 @media screen and (max-width:760px){.charts,.charts.three{grid-template-columns:1fr}nav{columns:1}}
 @page{size:A4 landscape;margin:12mm 13mm}
 @media print{
-body{font-size:10pt}
+body{font-size:7.6pt;line-height:1.3}
 .layout{display:block;max-width:none}
 nav,.controls,.tip{display:none!important}
 main{padding:0}
-h2{break-before:page;margin-top:0}
-h2.first{break-before:auto;margin-top:24px}
-h2,h3,h4,figcaption{break-after:avoid}
+h1{font-size:15pt}
+h2{font-size:12.5pt;margin-top:14px;padding-top:6px}
+h3{font-size:9.6pt;margin:9px 0 3px}
+h4{font-size:8.2pt;margin:7px 0 2px}
+p{margin:2px 0 4px}
+h2,h3,h4,figcaption,summary{break-after:avoid}
 figure,tr,.callout,svg{break-inside:avoid}
 thead{display:table-header-group}
-.scroll{overflow:visible}
-svg.top{max-height:118mm}
-.charts{gap:8px 18px;margin:4px 0 8px}
-h3{margin-top:16px}
-details{border:0;padding:0}
-details>summary{list-style:none;break-after:avoid}
+.scroll{overflow:visible;margin:3px 0 5px}
+.meta{font-size:6.7pt}
+svg.top{max-height:62mm}
+svg.legend{max-width:150mm}
+.charts{grid-template-columns:repeat(4,minmax(0,1fr));gap:5px 12px;margin:3px 0 5px}
+.charts.three{grid-template-columns:repeat(6,minmax(0,1fr));gap:5px 8px}
+.charts svg.plot{font-size:13.5px}
+main>figure.chart,figure.single{max-width:150mm}
+figure.chart{font-size:7pt}
+figcaption{font-size:7pt}
+.callout{padding:4px 9px;margin:4px 0;max-width:none}
+details{border:0;padding:0;margin:3px 0}
+details>summary{list-style:none;padding:2px 0;font-size:7.6pt}
 details::details-content{content-visibility:visible;block-size:auto}
-table{font-size:8.8pt}
-th,td{padding:2px 7px}
+dl{font-size:7.2pt;gap:1px 12px;max-width:none}
+table{font-size:6.7pt}
+td.muted{font-size:6.5pt}
+code{font-size:6.3pt}
+th,td{padding:1px 5px}
+.parameters-list{columns:2;column-gap:8mm}
+.parameters-list .scroll{break-inside:auto}
+table.parameters{font-size:5.9pt}
+table.parameters td.muted{font-size:5.7pt}
+table.parameters code{font-size:5.7pt}
 }
 )css";
 }

@@ -9,11 +9,13 @@
 namespace kingpin::report {
 namespace {
 
-Cell DifferenceCell(double paper, double ours) {
+/// A length is a coordinate, whose zero is arbitrary: its difference is given in its own unit.
+Cell DifferenceCell(double paper, double ours, const std::string& unit) {
   if (!std::isfinite(paper) || !std::isfinite(ours)) return TextCell("–", "n");
-  if (paper == 0.0) {
-    // A printed zero (a coordinate) has no relative difference.
-    return TextCell(ours == 0.0 ? "equal" : FormatNumber(ours - paper, 3), "n");
+  if (unit == "m" || unit == "mm" || paper == 0.0) {
+    const std::string sign = ours > paper ? "+" : "";
+    return HtmlCell(sign + FormatNumber(ours - paper, 3) + "\u00a0" + EscapeHtml(PrettyUnit(unit)),
+                    "n");
   }
   const double difference = (ours - paper) / std::abs(paper);
   // One fifth off is full shade; the sign does not matter here.
@@ -65,7 +67,7 @@ void AddComparisons(const std::vector<Comparison>& comparisons, int level, Page&
         const double ours = GetValue(r.ours, k) * r.unit.per_si;
         row.push_back(HtmlCell(format.Format(ours), "n"));
         row.back().css += " group";
-        row.push_back(DifferenceCell(paper, ours));
+        row.push_back(DifferenceCell(paper, ours, r.unit.text));
       }
       if (notes) row.push_back(TextCell(r.note, "muted"));
       table.AddRow(row);

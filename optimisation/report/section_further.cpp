@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "optimisation/report/case_facts.h"
 #include "optimisation/report/html.h"
 #include "optimisation/report/number_format.h"
@@ -15,16 +17,16 @@ void AddFurther(const Further& further, Page& page) {
   page.AddParagraph(further.text);
   if (!further.rows.empty()) {
     Table table;
-    std::vector<Cell> names = {TextCell("Set"), TextCell("Free")};
-    std::vector<Cell> columns = {TextCell(""), TextCell("")};
+    std::vector<Cell> names = {TextCell("Case"), TextCell("Free"), TextCell("Without it")};
+    std::vector<Cell> columns = {TextCell(""), TextCell(""), TextCell("")};
     const auto add_group = [&](const char* name, int span) {
       Cell cell = HtmlCell(name, "group c");
       cell.span = span;
       names.push_back(cell);
     };
     add_group("Kickback index <i>I</i><sub>V</sub>", 4);
-    for (const char* text : {"start", "paper's design", "reached", "reached / paper's"}) {
-      columns.push_back(TextCell(text, columns.size() == 2 ? "n group" : "n"));
+    for (const char* text : {"start", "without it", "reached", "reached / without"}) {
+      columns.push_back(TextCell(text, columns.size() == 3 ? "n group" : "n"));
     }
     if (!further.ratio_symbols.empty()) {
       add_group("Ratio to the start", static_cast<int>(further.ratio_symbols.size()));
@@ -34,32 +36,37 @@ void AddFurther(const Further& further, Page& page) {
     }
     add_group("Price", 1);
     columns.push_back(TextCell("road feel, ratio", "n group"));
-    names.push_back(TextCell("Remark"));
-    columns.push_back(TextCell(""));
+    const bool notes = std::any_of(further.rows.begin(), further.rows.end(),
+                                   [](const FurtherRow& r) { return !r.note.empty(); });
+    if (notes) {
+      names.push_back(TextCell("Remark"));
+      columns.push_back(TextCell(""));
+    }
     table.AddHeader(names);
     table.AddHeader(columns);
     for (const FurtherRow& r : further.rows) {
       std::vector<Cell> row = {TextCell(r.name, "b"),
                                TextCell(r.freedom),
+                               TextCell(r.before),
                                NumberCell(r.objective_start),
-                               NumberCell(r.objective_paper),
+                               NumberCell(r.objective_before),
                                NumberCell(r.objective),
-                               RatioCell(r.objective / r.objective_paper, Preference::kLower)};
-      row[2].css += " group";
-      row[4].css += " b";
+                               RatioCell(r.objective / r.objective_before, Preference::kLower)};
+      row[3].css += " group";
+      row[5].css += " b";
       for (size_t i = 0; i < further.ratio_symbols.size(); ++i) {
         row.push_back(RatioCell(GetValue(r.ratios, i), Preference::kLower));
         if (i == 0) row.back().css += " group";
       }
       row.push_back(RatioCell(r.road_feel_ratio, Preference::kHigher));
       row.back().css += " group";
-      row.push_back(TextCell(r.note, "muted"));
+      if (notes) row.push_back(TextCell(r.note, "muted"));
       table.AddRow(row);
     }
     page.Add(table.MakeHtml());
   }
   if (!charts.empty()) page.Add("<div class=\"charts\">" + charts + "</div>\n");
-  for (const ParetoFront& front : further.pareto) page.AddParagraph(front.note);
+  AddParetoNotes(further.pareto, page);
 }
 
 }  // namespace kingpin::report

@@ -102,7 +102,8 @@ void AddKickbackCard(const std::vector<Measure>& measures, const Case& c, Page& 
     table.AddRow(row, separate ? "sep" : "");
   }
 
-  const auto add_total = [&](const char* symbol, const char* name, const auto& value_of) {
+  const auto add_total = [&](const char* symbol, const char* name, bool with_ratios,
+                             const auto& value_of) {
     const double before = value_of(reference);
     if (!std::isfinite(before)) return;
     std::vector<Cell> row = {HtmlCell(symbol, "sym"), TextCell(name), TextCell("–", "muted")};
@@ -110,18 +111,21 @@ void AddKickbackCard(const std::vector<Measure>& measures, const Case& c, Page& 
       const double value = value_of(c.designs[d]);
       row.push_back(NumberCell(value));
       row.back().css += " group";
-      if (d > 0) row.push_back(RatioCell(value / before, Preference::kLower));
+      if (d == 0) continue;
+      row.push_back(with_ratios ? RatioCell(value / before, Preference::kLower) : TextCell(""));
     }
     table.AddRow(row, "total");
   };
-  add_total("<i>I</i><sub>V</sub>", "Kickback index: weighted sum of the ratios",
+  add_total("<i>I</i><sub>V</sub>", "Kickback index: weighted sum of the ratios", true,
             [&](const Design& d) { return CalcWeightedRatios(measures, reference, d); });
   const bool other = std::any_of(c.designs.begin(), c.designs.end(), [&](const Design& d) {
     const double sum = CalcWeightedRatios(measures, reference, d);
     return std::isfinite(d.objective) && !(std::abs(d.objective - sum) <= 1e-6 * std::abs(sum));
   });
   if (other) {
-    add_total("", "Objective of the search", [](const Design& d) { return d.objective; });
+    // Relative to the design its note names, so that a ratio to the first one would mean nothing.
+    add_total("", "Objective of the search, with its own reference", false,
+              [](const Design& d) { return d.objective; });
   }
   page.Add(table.MakeHtml("card"));
   page.AddParagraph(
@@ -161,10 +165,13 @@ void AddDesignVariables(const Case& c, Page& page) {
       const double value = GetValue(c.designs[d].variables, i);
       Cell cell = HtmlCell(format.Format(shown[d]), "n");
       cell.css += " group";
-      const double slack = 1e-6 * (v.upper - v.lower);
-      if (!v.locked && (value - v.lower <= slack || v.upper - value <= slack)) {
+      const Design& design = c.designs[d];
+      const double lower = i < design.lower.size() ? design.lower[i] : v.lower;
+      const double upper = i < design.upper.size() ? design.upper[i] : v.upper;
+      const double slack = 1e-6 * (upper - lower);
+      if (!v.locked && (value - lower <= slack || upper - value <= slack)) {
         cell.html +=
-            fmt::format("<span class=\"mark\">{}</span>", value - v.lower <= slack ? "⊥" : "⊤");
+            fmt::format("<span class=\"mark\">{}</span>", value - lower <= slack ? "⊥" : "⊤");
         cell.css += " b";
         at_bound = true;
       }
@@ -173,7 +180,12 @@ void AddDesignVariables(const Case& c, Page& page) {
     table.AddRow(row);
   }
   page.Add(table.MakeHtml());
-  if (at_bound) page.AddParagraph("⊥ on the lower bound, ⊤ on the upper bound.", "meta");
+  if (at_bound)
+    page.AddParagraph(
+        "⊥ on the lower bound of its stage, ⊤ on the upper one. The bounds listed are the widest "
+        "of "
+        "all stages.",
+        "meta");
 }
 
 }  // namespace kingpin::report

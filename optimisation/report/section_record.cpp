@@ -25,7 +25,8 @@ void AddParameters(const StudyReportData& data, Page& page) {
   page.AddHeading(2, "Parameters");
   page.AddParagraph(
       "Every value the models used, with its origin. An asterisk marks a value that differs "
-      "from the shipped one.");
+      "from the shipped one. What an earlier case took from the same place is not listed again.");
+  std::string list;
   for (const ParameterGroup& group : data.parameters) {
     Table table;
     table.AddHeader(
@@ -38,8 +39,9 @@ void AddParameters(const StudyReportData& data, Page& page) {
     }
     std::string title = fmt::format("{} ({})", group.title, group.parameters.size());
     if (!group.source.empty()) title += " · " + group.source;
-    page.Add(MakeDetails(title, table.MakeHtml("wide")));
+    list += MakeDetails(title, table.MakeHtml("wide parameters"));
   }
+  page.Add("<div class=\"parameters-list\">" + list + "</div>\n");
 }
 
 void AddConventions(const StudyReportData& data, Page& page) {
@@ -82,7 +84,7 @@ void AddRecord(const StudyReportData& data, Page& page) {
     for (const InputFile& f : data.inputs) {
       table.AddRow({HtmlCell("<code>" + EscapeHtml(f.path) + "</code>"),
                     HtmlCell(FormatCount(f.bytes), "n"),
-                    HtmlCell("<code>" + EscapeHtml(f.hash) + "</code>")});
+                    HtmlCell("<code>" + EscapeHtml(f.hash) + "</code>", "hash")});
     }
     page.Add(table.MakeHtml());
   }

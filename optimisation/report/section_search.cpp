@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -131,6 +132,7 @@ void AddUniqueness(const Case& c, Page& page) {
         "{}: {} of {} runs end within {:.1f} % of the best value {}; the worst ends at {}.", r.name,
         facts.same, r.end_values.size(), 100.0 * kSame, FormatNumber(facts.best),
         FormatNumber(worst)));
+    page.AddParagraph(r.note, "meta");
     if (r.end_designs.empty() || c.variables.empty()) continue;
     Table table;
     table.AddHeader({TextCell("Variable"), TextCell("Unit"), TextCell("best run", "n group"),
@@ -152,6 +154,7 @@ void AddUniqueness(const Case& c, Page& page) {
         same[1] = std::fmax(same[1], value);
         if (r.end_values[k] == facts.best) best = value;
       }
+      if (std::isnan(all[0])) continue;  // the stage did not free it
       std::vector<Cell> row = {HtmlCell(SymbolHtml(v.symbol), "sym"),
                                TextCell(PrettyUnit(v.unit.text), "muted"),
                                NumberCell(best, 5),
@@ -188,7 +191,14 @@ void AddParetoFronts(const Case& c, Page& page) {
   if (charts.empty()) return;
   page.AddHeading(3, "Kickback against road feel");
   page.Add("<div class=\"charts\">" + charts + "</div>\n");
-  for (const ParetoFront& front : c.pareto) page.AddParagraph(front.note);
+  AddParetoNotes(c.pareto, page);
+}
+
+void AddParetoNotes(const std::vector<ParetoFront>& fronts, Page& page) {
+  std::set<std::string> seen;
+  for (const ParetoFront& front : fronts) {
+    if (seen.insert(front.note).second) page.AddParagraph(front.note);
+  }
 }
 
 }  // namespace kingpin::report

@@ -48,8 +48,8 @@ std::string MakeOverview(const StudyReportData& data) {
       change.html = FormatChange(b / a);
       row.push_back(change);
     };
-    add_values(CalcObjective(data.measures, reference, reference),
-               CalcObjective(data.measures, reference, design), Preference::kLower);
+    add_values(CalcWeightedRatios(data.measures, reference, reference),
+               CalcWeightedRatios(data.measures, reference, design), Preference::kLower);
     for (const size_t i : headlines) {
       const Measure& m = data.measures[i];
       add_values(GetValue(reference.measures, i) * m.unit.per_si,

@@ -20,6 +20,8 @@ void AddGeometry(const std::vector<Measure>& measures, const Case& c, Page& page
 void AddSensitivities(const Case& c, Page& page);
 void AddSearch(const Case& c, Page& page);
 void AddParetoFronts(const Case& c, Page& page);
+/// What the fronts mean; each text once.
+void AddParetoNotes(const std::vector<ParetoFront>& fronts, Page& page);
 void AddComparisons(const std::vector<Comparison>& comparisons, int level, Page& page);
 
 void AddFurther(const Further& further, Page& page);

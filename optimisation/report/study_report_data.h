@@ -96,7 +96,7 @@ struct Variable {
   std::string symbol{};  ///< `r_L`
   std::string name{};    ///< `Half length of the rack`
   DisplayUnit unit{};
-  double lower = kMissing;  ///< bounds, SI
+  double lower = kMissing;  ///< bounds, SI; the widest of all stages
   double upper = kMissing;
   bool locked = false;  ///< held at its start value in this study
 };
@@ -159,7 +159,9 @@ struct Design {
   std::string name{};               ///< `initial`, `step 1`, `step 2`, `OPT2`, `printed optimum`
   std::vector<double> measures{};   ///< parallel to StudyReportData::measures
   std::vector<double> variables{};  ///< parallel to Case::variables
-  double objective = kMissing;      ///< what the search minimised; NaN: I_V from the weights
+  std::vector<double> lower{};      ///< bounds of its own search, likewise; NaN: was not free;
+  std::vector<double> upper{};      ///< empty: those of Case::variables
+  double objective = kMissing;      ///< what the search minimised; may have another reference
   bool plotted = true;              ///< drawn in the figures (it stands in the tables anyway)
   std::vector<double> time{};       ///< [s] of the histories; need not be uniform
   std::vector<std::vector<double>> histories{};  ///< parallel to Case::channels, each like `time`
@@ -204,6 +206,7 @@ struct Restarts {
   std::vector<double> start_values{};              ///< objective at the starts; may be empty
   std::vector<double> end_values{};                ///< objective at the ends
   std::vector<std::vector<double>> end_designs{};  ///< parallel to Case::variables; may be empty
+  std::string note{};                              ///< how the runs were made
 };
 
 /// A bound or constraint that holds the optimum back.
@@ -273,7 +276,7 @@ struct Case {
   std::string name{};
   std::string description{};      ///< a sentence or two
   std::string verdict{};          ///< empty: the report writes one from the numbers
-  int chosen = -1;                ///< the design the verdict is about; -1: lowest objective
+  int chosen = -1;                ///< the design the verdict is about; -1: lowest I_V
   std::vector<Design> designs{};  ///< the first is the reference of all ratios
   std::vector<Channel> channels{};
   std::string spectrum_name = "Spectrum of the rim acceleration";
@@ -297,13 +300,14 @@ struct Case {
 
 /// How low the measures go with more freedom: one row per parameter set or case.
 struct FurtherRow {
-  std::string name{};                 ///< `set B, case 2`
-  std::string freedom{};              ///< `geometry and all characteristics ±30 %`
-  double objective_start = kMissing;  ///< I_V of the start
-  double objective_paper = kMissing;  ///< I_V of the paper's optimum in this set (step 2, OPT2)
-  double objective = kMissing;        ///< I_V reached
-  std::vector<double> ratios{};       ///< Γ_k / Γ_k(initial), parallel to Further::ratio_symbols
-  double road_feel_ratio = kMissing;  ///< road-feel gain / initial
+  std::string name{};                  ///< `set B, case 2`
+  std::string freedom{};               ///< `geometry and all characteristics ±30 %`
+  double objective_start = kMissing;   ///< I_V of the start
+  std::string before{};                ///< the last design with the case's own freedom: `OPT2`
+  double objective_before = kMissing;  ///< its I_V
+  double objective = kMissing;         ///< I_V reached
+  std::vector<double> ratios{};        ///< Γ_k / Γ_k(initial), parallel to Further::ratio_symbols
+  double road_feel_ratio = kMissing;   ///< road-feel gain / initial
   std::string note{};
 };
 

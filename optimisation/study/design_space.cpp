@@ -323,6 +323,23 @@ std::vector<double> DesignSpace::Extract(const Parameters<double>& design) const
   return x;
 }
 
+bool DesignSpace::Contains(const Parameters<double>& design) const {
+  const Parameters<double> inside = Apply(Extract(design));
+  const auto near = [](double a, double b) {
+    return std::abs(a - b) <= 1e-9 * (std::abs(a) + std::abs(b));
+  };
+  const auto same_curve = [&](const planar::Curve<double>& a, const planar::Curve<double>& b) {
+    if (a.count != b.count) return false;
+    return std::equal(a.x.begin(), a.x.begin() + a.count, b.x.begin(), near) &&
+           std::equal(a.f.begin(), a.f.begin() + a.count, b.f.begin(), near);
+  };
+  for (const auto& field : ScalarFields<double>()) {
+    if (!near(design.*(field.member), inside.*(field.member))) return false;
+  }
+  return same_curve(design.assist_force, inside.assist_force) &&
+         same_curve(design.longitudinal_force, inside.longitudinal_force);
+}
+
 double GetVariable(const Parameters<double>& design, const DesignVariable& variable) {
   if (variable.kind == DesignVariable::Kind::kScalar) {
     return design.*(ScalarFields<double>()[variable.index].member);

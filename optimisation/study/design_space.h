@@ -78,6 +78,10 @@ class DesignSpace {
   /// The variables' values in another design, moved into the bounds where they lie outside.
   std::vector<double> Extract(const planar::Parameters<double>& design) const;
 
+  /// True when the design is the base but for variables of the space, which lie within its bounds
+  /// (to rounding).
+  bool Contains(const planar::Parameters<double>& design) const;
+
  private:
   planar::Parameters<double> base_;
   std::vector<DesignVariable> variables_;

@@ -2,6 +2,7 @@
 
 #include "optimisation/measures/conventions.h"
 #include "optimisation/study/make_report.h"
+#include "optimisation/study/report_parts.h"
 #include "optimisation/study/scalar_fields.h"
 
 namespace kingpin::study {
@@ -35,7 +36,7 @@ std::vector<report::Comparison> MakeCaseComparisons(const Case& c, const CaseRes
     add("I_V", "sum of ratios to " + ours.relative_to, {}, printed.sum_of_ratios,
         ours.sum_of_ratios);
     for (int i = 0; i < kScalarFieldCount; ++i) {
-      add(fields[i].name, fields[i].description, {fields[i].unit}, printed.design[i],
+      add(fields[i].name, fields[i].description, GetShownUnit(fields[i].unit), printed.design[i],
           ours.parameters.*(fields[i].member));
     }
     if (ours.search) add("", "computing time", {"s"}, printed.seconds, ours.seconds);

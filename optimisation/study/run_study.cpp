@@ -2,17 +2,16 @@
 
 #include <chrono>
 #include <cmath>
-#include <random>
 
 #include <fmt/format.h>
 
 #include "core/io/error.h"
 #include "models/planar/linear_road_feel.h"
-#include "optimisation/algorithms/minimise.h"
 #include "optimisation/algorithms/nsga2.h"
 #include "optimisation/study/model_source.h"
 #include "optimisation/study/quantities.h"
 #include "optimisation/study/stage_problem.h"
+#include "optimisation/study/stage_search.h"
 
 namespace kingpin::study {
 namespace {
@@ -52,65 +51,6 @@ void Compare(DesignResult& design, const DesignResult& reference,
   design.sum_of_ratios = measures::CalcObjective(design.gammas, reference.gammas, weights);
 }
 
-/// Random points in the bounds of a space, monotone conditions aside (the search repairs those).
-std::vector<std::vector<double>> MakeRandomStarts(const DesignSpace& space, int count,
-                                                  std::uint64_t seed) {
-  std::mt19937_64 engine(seed);
-  std::vector<std::vector<double>> starts;
-  for (int i = 0; i < count; ++i) {
-    std::vector<double> x;
-    for (const DesignVariable& v : space.variables()) {
-      // 53 random bits: the same number on every platform, which std::uniform_real_distribution is
-      // not.
-      const double u = static_cast<double>(engine() >> 11) * 0x1p-53;
-      x.push_back(v.lower + u * (v.upper - v.lower));
-    }
-    starts.push_back(std::move(x));
-  }
-  return starts;
-}
-
-/// Repeats the whole search from random starts and records where each ends: how unique is the
-/// optimum?
-void RepeatFromRandomStarts(const Stage& stage, const DesignSpace& space,
-                            const optimisation::Problem& problem,
-                            const optimisation::MinimiseOptions& options, std::uint64_t seed,
-                            const optimisation::Control& control, optimisation::Result& result) {
-  result.restarts.clear();
-  double lowest = result.value, highest = result.value;
-  std::uint64_t repeat_seed = seed;
-  for (const std::vector<double>& start : MakeRandomStarts(space, stage.random_starts, seed)) {
-    optimisation::Problem repeated = problem;
-    for (std::size_t i = 0; i < start.size(); ++i) repeated.variables[i].start = start[i];
-    optimisation::MinimiseOptions repeat_options = options;
-    repeat_options.starts.clear();
-    repeat_options.seed = ++repeat_seed;
-    const optimisation::Result end = optimisation::Minimise(repeated, repeat_options, control);
-    if (end.cancelled) break;
-    result.restarts.push_back(
-        {start, end.start_value, end.x, end.value, end.evaluations, end.status, -1});
-    lowest = std::min(lowest, end.value);
-    highest = std::max(highest, end.value);
-    if (end.value < result.value && end.feasible) {
-      result.x = end.x;
-      result.value = end.value;
-      result.active = end.active;
-    }
-  }
-  result.spread = (highest - lowest) / std::abs(lowest);
-}
-
-/// A search works in scaled variables; what it puts on a bound may come back a rounding error
-/// beside it.
-void SnapToBounds(const DesignSpace& space, std::vector<double>& x) {
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    const DesignVariable& v = space.variables()[i];
-    const double rounding = 1e-12 * (v.upper - v.lower);
-    if (std::abs(x[i] - v.lower) < rounding) x[i] = v.lower;
-    if (std::abs(x[i] - v.upper) < rounding) x[i] = v.upper;
-  }
-}
-
 void NoteBounds(const DesignResult& design, CaseResult& result) {
   std::vector<std::string> names;
   for (const auto& active : design.search->active)
@@ -120,83 +60,13 @@ void NoteBounds(const DesignResult& design, CaseResult& result) {
                                         names.size(), fmt::join(names, ", ")));
 }
 
-/// Effort in proportion to the number of variables. The measures are smooth to about 1e-6 of their
-/// value (the simulation's own accuracy), so finer tolerances would follow noise.
-optimisation::MinimiseOptions MakeSearchOptions(const Stage& stage, int variables,
-                                                std::uint64_t seed) {
-  optimisation::MinimiseOptions options;
-  options.algorithm = stage.algorithm;
-  options.seed = seed;
-  options.multistart.samples = std::clamp(32 * variables, 128, 512);
-  options.multistart.searches = 16;
-  options.multistart.cma_es_evaluations = 80L * variables;
-  options.multistart.polished = 2;
-  options.polish.step_tolerance = 1e-6;
-  options.polish.value_tolerance = 1e-9;
-  options.polish.max_evaluations = 20 * variables;
-  return options;
-}
-
-/// Searches from good starts in the model as it is, without derivatives.
-optimisation::Result Refine(const optimisation::Problem& problem,
-                            std::vector<std::vector<double>> starts,
-                            const optimisation::Control& control) {
-  optimisation::MinimiseOptions options;
-  options.algorithm = optimisation::Algorithm::kNelderMead;
-  options.local.initial_step = 0.03;
-  options.local.step_tolerance = 1e-3;
-  options.local.fresh_simplexes = 0;
-  options.local.max_evaluations = 15 * static_cast<int>(problem.size());
-  options.polish.enabled = false;
-  options.starts = std::move(starts);
-  return optimisation::Minimise(problem, options, control);
-}
-
-/// One search. A model with switching forces is searched in two passes: globally without them (in
-/// SIMD lanes, with exact derivatives), then locally as it is from the minima found and from all
-/// given starts.
-optimisation::Result Search(const Stage& stage, const DesignSpace& space,
-                            const DesignResult& reference, std::uint64_t seed, CaseContext& context,
-                            double& seconds) {
-  const auto clock = std::chrono::steady_clock::now();
-  const auto& weights = context.definition.weights();
-  optimisation::MinimiseOptions options = MakeSearchOptions(stage, space.size(), seed);
-  for (const std::string& name : stage.also_from) {
-    options.starts.push_back(space.Extract(context.result.Find(name).parameters));
-  }
-  optimisation::Control control;
-  control.max_evaluations = stage.max_evaluations;
-  control.cancelled = context.options.cancelled;
-  const optimisation::Problem problem =
-      MakeStageProblem(space, context.evaluator, reference.gammas, weights, context.limits);
-  if (!HasSwitchingForces(space.base())) {
-    optimisation::Result result = optimisation::Minimise(problem, options, control);
-    seconds = SecondsSince(clock);
-    if (stage.random_starts > 0 && !result.cancelled) {
-      RepeatFromRandomStarts(stage, space, problem, options, seed, control, result);
-    }
-    return result;
-  }
-  const DesignSpace smooth_space = space.WithBase(MakeSmooth(space.base()));
-  const Gammas<double> smooth_reference = context.evaluator.Calc(MakeSmooth(reference.parameters));
-  const optimisation::Problem smooth_problem =
-      MakeStageProblem(smooth_space, context.evaluator, smooth_reference, weights, context.limits);
-  const optimisation::Result smooth = optimisation::Minimise(smooth_problem, options, control);
-  std::vector<std::vector<double>> starts = options.starts;
-  if (smooth.feasible) starts.push_back(smooth.x);
-  constexpr std::size_t kFurtherMinima = 1;
-  for (std::size_t i = 1; i < std::min(smooth.minima.size(), 1 + kFurtherMinima); ++i) {
-    starts.push_back(smooth.minima[i].x);
-  }
-  optimisation::Result result = Refine(problem, std::move(starts), control);
-  result.algorithm = smooth.algorithm + " without switching forces, then " + result.algorithm;
-  result.evaluations += smooth.evaluations;
-  result.gradient_evaluations += smooth.gradient_evaluations;
-  result.restarts = smooth.restarts;
-  result.minima = smooth.minima;
-  result.spread = smooth.spread;
-  seconds = SecondsSince(clock);
-  return result;
+StageSearch MakeSearch(const DesignSpace& space, const DesignResult& reference,
+                       CaseContext& context) {
+  return {.space = space,
+          .reference = reference.parameters,
+          .weights = context.definition.weights(),
+          .limits = context.limits,
+          .cancelled = context.options.cancelled};
 }
 
 /// A given design that lies well above the optimum found, but is itself the end of a descent, is a
@@ -210,12 +80,9 @@ void NoteLocalOptimum(const Stage& given, const DesignResult& optimum, CaseConte
   if (value <= optimum.sum_of_ratios * (1.0 + kNoticeable)) return;
   // A descent that starts there and ends there: a local minimum.
   const std::vector<double> x = optimum.space->Extract(design.parameters);
-  optimisation::Problem problem = MakeStageProblem(*optimum.space, context.evaluator, reference,
-                                                   context.definition.weights(), context.limits);
-  for (std::size_t i = 0; i < x.size(); ++i) problem.variables[i].start = x[i];
-  optimisation::Control control;
-  control.cancelled = context.options.cancelled;
-  const double descended = Refine(problem, {}, control).value;
+  const StageSearch search =
+      MakeSearch(*optimum.space, context.result.Find(optimum.relative_to), context);
+  const double descended = RefineFrom(search, x, context.evaluator).value;
   const bool is_local = descended > value * (1.0 - kNoticeable);
   context.result.warnings.push_back(
       fmt::format("{} ({:.4g}) is {}: {} found {:.4g}, {:.1f} % lower.", design.name, value,
@@ -237,18 +104,23 @@ void RunStage(const Stage& stage, std::size_t number, CaseContext& context) {
     return;
   }
   const long before = context.evaluator.simulations();
-  double seconds = 0.0;  // of the search itself, without the repeats from random starts
   const std::string where =
       fmt::format("{}: case '{}', stage '{}'", context.options.file, context.c.name, stage.name);
   const DesignSpace space =
       DesignSpace::Make(base, result.designs.front().parameters, stage.free, context.c.variables,
                         MergeCurves(context.c.curves, stage.curves), where);
-  optimisation::Result search =
-      Search(stage, space, reference, context.definition.seed + 1000 * number, context, seconds);
+  StageSearch request = MakeSearch(space, reference, context);
+  request.algorithm = stage.algorithm;
+  for (const std::string& name : stage.also_from) {
+    request.starts.push_back(space.Extract(result.Find(name).parameters));
+  }
+  request.random_starts = stage.random_starts;
+  request.max_evaluations = stage.max_evaluations;
+  request.seed = context.definition.seed + 1000 * number;
+  auto [search, seconds] = SearchStage(request, context.evaluator);
   if (!std::isfinite(search.value)) {
     throw io::RunError(where + ": no design with finite measures was found");
   }
-  SnapToBounds(space, search.x);
   DesignResult design = MakeDesign(stage.name, space.Apply(search.x), context.evaluator);
   Compare(design, reference, context.definition.weights());
   design.space = space;
@@ -343,15 +215,21 @@ void RunPareto(CaseContext& context) {
   optimisation::Control control;
   control.cancelled = context.options.cancelled;
   const optimisation::Front found = optimisation::RunNsga2(problem, options, control);
+  std::vector<std::vector<double>> candidates;
+  for (const auto& point : found.points) candidates.push_back(point.x);
+  // The designs found before belong to the front's space if they have no more freedom than it.
+  for (const DesignResult& design : context.result.designs) {
+    if (space.Contains(design.parameters)) candidates.push_back(space.Extract(design.parameters));
+  }
   std::vector<Parameters<double>> designs;
-  for (const auto& point : found.points) designs.push_back(space.Apply(point.x));
+  for (const auto& x : candidates) designs.push_back(space.Apply(x));
   std::vector<Gammas<double>> gammas(designs.size());
   context.evaluator.Calc(designs, gammas);
   std::vector<optimisation::FrontPoint> points;
   for (std::size_t i = 0; i < designs.size(); ++i) {
     const double sum = measures::CalcObjective(gammas[i], initial.gammas, weights);
     if (std::isfinite(sum)) {
-      points.push_back({found.points[i].x, {sum, -planar::CalcRoadFeelGain(designs[i])}});
+      points.push_back({candidates[i], {sum, -planar::CalcRoadFeelGain(designs[i])}});
     }
   }
   for (const auto& point : optimisation::FilterFront(std::move(points))) {

@@ -92,6 +92,7 @@ struct Stage {
 struct PrintedDesign {
   std::string stage;
   std::string table;
+  std::string figure;  ///< `Fig. 7`: printed history (a) and spectrum (b) of the rim acceleration
   std::array<std::optional<double>, 5> gamma{};
   std::optional<double> sum_of_ratios;
   DesignValues design{};

@@ -253,6 +253,9 @@ const Schema<PrintedDesign>& PrintedSchema() {
     Schema<PrintedDesign> s("printed", "Printed values, shown beside ours.");
     s.Text("stage", &PrintedDesign::stage, "the stage (or `initial`) they belong to");
     s.Text("table", &PrintedDesign::table, "where they are printed");
+    s.Text("figure", &PrintedDesign::figure,
+           "printed figure with history (a) and spectrum (b) of the rim acceleration")
+        .Optional();
     for (int k = 0; k < 5; ++k) {
       s.Quantity(
            "gamma_" + std::to_string(k + 1),

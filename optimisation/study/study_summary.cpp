@@ -106,13 +106,15 @@ std::string FormatComparison(const report::Comparison& comparison) {
   text += "\n";
   for (const report::ComparisonRow& row : comparison.rows) {
     text += "  " + Pad(row.symbol.empty() ? "time" : row.symbol, 8) +
-            fmt::format("{:>12.6g}", row.paper);
+            fmt::format("{:>12.6g}", row.unit.per_si * row.paper);
+    // A length is a coordinate, whose zero is arbitrary.
+    const bool absolute = row.unit.text == "mm" || row.paper == 0.0;
     for (const double ours : row.ours) {
-      text += fmt::format("{:>12.6g}", ours);
-      if (row.paper != 0.0) {
-        text += fmt::format("{:>8.1f}%", 100.0 * (ours - row.paper) / std::abs(row.paper));
+      text += fmt::format("{:>12.6g}", row.unit.per_si * ours);
+      if (absolute) {
+        text += fmt::format("{:>+9.2g}", row.unit.per_si * (ours - row.paper));
       } else {
-        text += fmt::format("{:>9.2g}", ours - row.paper);
+        text += fmt::format("{:>8.1f}%", 100.0 * (ours - row.paper) / std::abs(row.paper));
       }
     }
     if (!row.unit.text.empty()) text += "  " + row.unit.text;

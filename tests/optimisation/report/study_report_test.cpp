@@ -183,6 +183,50 @@ TEST(StudyReport, NumbersOfTheSampleArePresent) {
   }
 }
 
+TEST(StudyReport, AMarkOnABoundIsOfTheDesignsOwnStage) {
+  StudyReportData data = MakeSampleStudy();
+  data.cases.resize(1);
+  Case& c = data.cases[0];
+  for (Design& d : c.designs) {
+    d.lower.assign(c.variables.size(), kMissing);
+    d.upper.assign(c.variables.size(), kMissing);
+  }
+  EXPECT_FALSE(Has(MakeStudyReport(data), "on the lower bound of its stage"));
+  c.designs[1].upper[0] = c.designs[1].variables[0];
+  c.designs[1].lower[0] = c.designs[1].variables[0] - 1.0;
+  EXPECT_TRUE(Has(MakeStudyReport(data), "<span class=\"mark\">⊤</span>"));
+}
+
+TEST(StudyReport, EndsOfRunsAreListedForFreedVariablesOnly) {
+  StudyReportData data = MakeSampleStudy();
+  data.cases.resize(1);
+  Case& c = data.cases[0];
+  const auto rows_of = [&] {
+    const std::string html = MakeStudyReport(data);
+    const size_t at = html.find("lowest among equals");
+    const std::string table = html.substr(at, html.find("</table>", at) - at);
+    long rows = 0;
+    for (size_t k = table.find("<tr"); k != std::string::npos; k = table.find("<tr", k + 1)) ++rows;
+    return rows;
+  };
+  const long before = rows_of();
+  for (Restarts& r : c.restarts) {
+    for (auto& end : r.end_designs) end[0] = kMissing;
+  }
+  EXPECT_EQ(rows_of(), before - 1);
+}
+
+TEST(StudyReport, ALengthIsComparedInItsOwnUnit) {
+  StudyReportData data;
+  data.comparisons = {{.title = "Table 5",
+                       .columns = {"set A"},
+                       .rows = {{"r_X", "", {"mm", 1e3}, 3.5e-8, {0.0}, ""},
+                                {"Γ_1", "", {"mm/s^2"}, 100.0, {90.0}, ""}}}};
+  const std::string html = MakeStudyReport(data);
+  EXPECT_FALSE(Has(html, "−100"));
+  EXPECT_TRUE(Has(html, "−10\u202f%"));
+}
+
 TEST(StudyReport, TheLegendNamesEveryPlottedDesign) {
   StudyReportData data = MakeSampleStudy();
   data.cases[0].designs[2].plotted = false;
@@ -206,15 +250,28 @@ TEST(CaseFacts, TheIndexIsTheWeightedSumOfRatios) {
   EXPECT_TRUE(std::isnan(CalcWeightedRatios({{.name = "c"}}, reference, reference)));
 }
 
-TEST(CaseFacts, TheLowestObjectiveIsChosenUnlessTheStudySaysOtherwise) {
+TEST(CaseFacts, TheLowestIndexIsChosenUnlessTheStudySaysOtherwise) {
   const std::vector<Measure> measures = sample::MakeMeasures();
   Case c = sample::MakeCase("x", 1.0);
   EXPECT_EQ(FindChosenDesign(measures, c), 3u);
-  c.designs[1].objective = 1.0;
-  EXPECT_EQ(FindChosenDesign(measures, c), 1u);
+  c.designs[1].objective = 1.0;  // relative to something else: not comparable
+  EXPECT_EQ(FindChosenDesign(measures, c), 3u);
   c.chosen = 2;
   EXPECT_EQ(FindChosenDesign(measures, c), 2u);
   EXPECT_FALSE(FindChosenDesign(measures, Case{}).has_value());
+}
+
+TEST(CaseFacts, TheVerdictIsRelativeToTheFirstDesignWhateverTheSearchDividedBy) {
+  const std::vector<Measure> measures = sample::MakeMeasures();
+  Case c = sample::MakeCase("x", 1.0);
+  const std::string before = MakeVerdict(measures, c);
+  c.designs[3].objective = 3.94;  // relative to step 1
+  EXPECT_EQ(MakeVerdict(measures, c), before);
+  StudyReportData data = MakeSampleStudy();
+  for (Case& other : data.cases) other.designs[3].objective = 3.94;
+  const std::string html = MakeStudyReport(data);
+  // In the cards' row of objectives, and nowhere as an index of the summary.
+  EXPECT_EQ(html.substr(0, html.find("Kickback card</h3>")).find("3.94"), std::string::npos);
 }
 
 TEST(CaseFacts, TheVerdictSaysWhatWasPaid) {
