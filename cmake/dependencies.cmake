@@ -1,7 +1,7 @@
 # Debian 12 packages only; what each is for stands in docs/decisions.md.
 find_package(Threads REQUIRED)
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)
-find_package(SUNDIALS 6.4 REQUIRED COMPONENTS cvodes kinsol nvecserial sunmatrixdense sunlinsoldense)
+find_package(SUNDIALS 6.4 REQUIRED COMPONENTS arkode cvodes kinsol nvecserial sunmatrixdense sunlinsoldense)
 find_package(NLopt REQUIRED)
 find_package(yaml-cpp REQUIRED)
 find_package(nlohmann_json REQUIRED)

@@ -166,6 +166,7 @@ class Maker {
     for (const ClosureDescription& closure : description_.closures) AddClosure(closure);
     for (const CouplingDescription& coupling : description_.couplings) AddCoupling(coupling);
     for (const MotionDescription& motion : description_.motions) AddMotion(motion);
+    for (const FrictionDescription& friction : description_.frictions) AddFriction(friction);
     mechanism::CompileTopology(model);
     Assemble();
     try {
@@ -201,6 +202,9 @@ class Maker {
     for (const auto& coupling : description_.couplings)
       add("closures", coupling.name, coupling.source);
     for (const auto& motion : description_.motions) add("closures", motion.name, motion.source);
+    for (const auto& friction : description_.frictions) {
+      add("closures", friction.name, friction.source);
+    }
     for (double g : {description_.gravity.x, description_.gravity.y, description_.gravity.z}) {
       if (!std::isfinite(g)) Fail({}, "gravity", fmt::format("{:g}", g), "finite numbers [m/s^2]");
     }
@@ -542,6 +546,56 @@ class Maker {
     row.row = AddRows(motion.name, motion.source, {""});
     mechanism_.system.drives[row.row] = motion.motion;
     mechanism_.system.model.linear.push_back(std::move(row));
+  }
+
+  void AddFriction(const FrictionDescription& friction) {
+    const std::string key = fmt::format("frictions.{}", friction.name);
+    mechanism::LinearRow row;
+    row.rate_only = true;
+    row.terms.push_back(
+        MakeTerm(friction.source, key + ".joint", friction.joint, friction.coordinate, 1, true));
+    const double values[] = {
+        friction.kinetic_force,      friction.static_force, friction.kinetic_coefficient,
+        friction.static_coefficient, friction.preload,      friction.stribeck_speed};
+    for (double value : values) {
+      if (!std::isfinite(value) || value < 0) {
+        Fail(friction.source, key, fmt::format("{:g}", value), "numbers that are not negative");
+      }
+    }
+    if (friction.static_force < friction.kinetic_force ||
+        friction.static_coefficient < friction.kinetic_coefficient) {
+      Fail(friction.source, key, "a static limit below the kinetic one",
+           "a static limit at least as large");
+    }
+    if (friction.stribeck != mechanism::Friction::Stribeck::kNone && friction.stribeck_speed == 0) {
+      Fail(friction.source, key + ".stribeck_speed", "0", "a speed above zero");
+    }
+    mechanism::Friction element;
+    row.row = element.row = AddRows(friction.name, friction.source, {""}, false);
+    element.static_force = friction.static_force;
+    element.kinetic_force = friction.kinetic_force;
+    element.static_coefficient = friction.static_coefficient;
+    element.kinetic_coefficient = friction.kinetic_coefficient;
+    element.preload = friction.preload;
+    element.stribeck = friction.stribeck;
+    element.stribeck_speed = friction.stribeck_speed;
+    if (friction.from_joint) element.normal_link = mechanism_.GetJoint(friction.joint).link;
+    for (const std::string& name : friction.from_closures) {
+      const auto found = std::find_if(mechanism_.rows.begin(), mechanism_.rows.end(),
+                                      [&](const auto& place) { return place.name == name; });
+      if (found == mechanism_.rows.end()) {
+        std::vector<std::string> known;
+        for (const auto& place : mechanism_.rows) known.push_back(place.name);
+        Fail(friction.source, key + ".from_closures", fmt::format("'{}'", name),
+             "the name of a closure", io::SuggestName(name, known, "closures"));
+      }
+      for (int r = 0; r < found->count; ++r) element.normal_rows.push_back(found->first + r);
+    }
+    mechanism_.system.model.switching.resize(row.row + 1, 0);
+    mechanism_.system.model.switching[row.row] = 1;
+    mechanism_.system.drives[row.row] = friction.counterpart;
+    mechanism_.system.model.linear.push_back(std::move(row));
+    mechanism_.system.friction.push_back(std::move(element));
   }
 
   void Assemble() {

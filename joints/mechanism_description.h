@@ -116,6 +116,23 @@ struct MotionDescription {
   Source source;
 };
 
+/// Set-valued dry friction in a coordinate of a joint; limits as in mechanism::Friction.
+struct FrictionDescription {
+  std::string name;
+  std::string joint;
+  int coordinate = 0;
+  double static_force = 0, kinetic_force = 0;  ///< [N, N m]
+  double static_coefficient = 0,
+         kinetic_coefficient = 0;          ///< times the normal force [1, or m for a turning joint]
+  double preload = 0;                      ///< part of the normal force [N]
+  bool from_joint = false;                 ///< the joint's own load is part of the normal force
+  std::vector<std::string> from_closures;  ///< so are the reactions of these
+  mechanism::Friction::Stribeck stribeck = mechanism::Friction::Stribeck::kNone;
+  double stribeck_speed = 0;     ///< [m/s, rad/s]
+  mechanism::Drive counterpart;  ///< motion of what it rubs against; empty: still
+  Source source;
+};
+
 /// What a mechanism is made of, before it is put together. From C++ (mechanism_builder.h), YAML or
 /// URDF.
 struct MechanismDescription {
@@ -126,6 +143,7 @@ struct MechanismDescription {
   std::vector<ClosureDescription> closures;
   std::vector<CouplingDescription> couplings;
   std::vector<MotionDescription> motions;
+  std::vector<FrictionDescription> frictions;
 };
 
 }  // namespace kingpin::joints

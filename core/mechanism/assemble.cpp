@@ -90,15 +90,19 @@ Assembly AssembleVelocities(const Model& model, std::span<const double> rate,
                             std::span<const char> held, double tolerance, std::span<const double> q,
                             std::span<double> v) {
   if (model.rows == 0) return Judge({}, tolerance);
-  const Eigen::MatrixXd J =
-      CalcEquationMatrix(model, q).bottomLeftCorner(model.rows, model.velocities);
-  const Eigen::Map<const Eigen::VectorXd> wanted(rate.data(), model.rows);
+  Eigen::MatrixXd J = CalcEquationMatrix(model, q).bottomLeftCorner(model.rows, model.velocities);
+  Eigen::VectorXd wanted = Eigen::Map<const Eigen::VectorXd>(rate.data(), model.rows);
+  for (int r = 0; r < model.rows; ++r) {
+    if (!model.switching[r]) continue;
+    J.row(r).setZero();
+    wanted[r] = 0;
+  }
   Eigen::Map<Eigen::VectorXd> velocity(v.data(), model.velocities);
   Eigen::MatrixXd free = J;
   for (int i = 0; i < model.velocities; ++i) {
     if (held[i]) free.col(i).setZero();
   }
-  for (const Eigen::MatrixXd* gradients : {&std::as_const(free), &J}) {
+  for (const Eigen::MatrixXd* gradients : {&free, &J}) {
     velocity += gradients->completeOrthogonalDecomposition().solve(wanted - J * velocity);
     const Assembly assembly = Judge(J * velocity - wanted, tolerance);
     if (assembly.closed) return assembly;

@@ -24,8 +24,8 @@ struct Assembly {
 Assembly AssemblePositions(const Model& model, std::span<const double> drive,
                            std::span<const char> held, double tolerance, std::span<double> q);
 
-/// The v nearest to the given one with Dᵀ v = `rate`, moving the `held` ones only if need be;
-/// `residual` and `open_rows` are of the rates.
+/// The v nearest to the given one with Dᵀ v = `rate` in all rows that do not switch, moving the
+/// `held` ones only if need be; `residual` and `open_rows` are of the rates.
 Assembly AssembleVelocities(const Model& model, std::span<const double> rate,
                             std::span<const char> held, double tolerance, std::span<const double> q,
                             std::span<double> v);

@@ -148,6 +148,7 @@ void CompileTopology(Model& model) {
   SetTree(model);
   SetSupports(model);
   model.redundant.assign(model.rows, 0);
+  model.switching.resize(model.rows, 0);
 }
 
 void CompileElimination(Model& model, std::span<const double> q) {
@@ -178,7 +179,8 @@ void CompileElimination(Model& model, std::span<const double> q) {
     if (s == 0) scale = CalcScale(model, K);
     samples.push_back(scale.asDiagonal() * K * scale.asDiagonal());
   }
-  EliminationOrder plan = ChooseEliminationOrder(model.velocities, samples, entries);
+  EliminationOrder plan =
+      ChooseEliminationOrder(model.velocities, samples, model.switching, entries);
   model.pattern = math::SparseLdltPattern(plan.order, entries);
   model.redundant = std::move(plan.redundant);
   for (int k = 0; k < n; ++k) {

@@ -16,6 +16,7 @@ constexpr double kRunTimeShare = 1e-5;  // of the pivots seen, before digits are
 
 EliminationOrder ChooseEliminationOrder(int coordinates,
                                         const std::vector<Eigen::MatrixXd>& samples,
+                                        std::span<const char> switching,
                                         std::span<const std::pair<int, int>> pattern) {
   const int n = static_cast<int>(samples.front().rows());
   std::vector<Eigen::MatrixXd> work = samples;
@@ -55,6 +56,8 @@ EliminationOrder ChooseEliminationOrder(int coordinates,
     result.order.push_back(k);
   };
 
+  int lasting = 0;  // rows still to go that are always in use
+  for (char s : switching) lasting += !s;
   for (int step = 0; step < n; ++step) {
     int best = -1;
     long best_fill = std::numeric_limits<long>::max();
@@ -66,6 +69,7 @@ EliminationOrder ChooseEliminationOrder(int coordinates,
       double share = 1;
       bool last_resort = false;
       if (k >= coordinates) {
+        if (switching[k - coordinates] && lasting > 0) continue;
         bool free = true;  // no coordinate left that could still feed this pivot
         for (int i = 0; i < coordinates && free; ++i) free = gone[i] || !linked[k][i];
         share = std::numeric_limits<double>::infinity();
@@ -96,6 +100,7 @@ EliminationOrder ChooseEliminationOrder(int coordinates,
         best_is_last_resort = last_resort;
       }
     }
+    if (best >= coordinates && !switching[best - coordinates]) --lasting;
     if (best >= coordinates) {
       // Dependent in every sample: one state with a pivot is enough to keep the row.
       double largest = 0;

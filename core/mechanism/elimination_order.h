@@ -26,9 +26,13 @@ struct EliminationOrder {
 ///
 /// @param coordinates number of coordinates; unknowns from there on are rows
 /// @param samples the matrix in some admissible states, in units that bring its entries near one
+/// @param switching per row: may be out of use at times, so that it goes after all others and is
+/// the redundant one of a
+///     dependent set
 /// @param pattern pairs that may be non-zero
 EliminationOrder ChooseEliminationOrder(int coordinates,
                                         const std::vector<Eigen::MatrixXd>& samples,
+                                        std::span<const char> switching,
                                         std::span<const std::pair<int, int>> pattern);
 
 }  // namespace kingpin::mechanism

@@ -16,11 +16,24 @@ Evaluator::Evaluator(const System& system)
       drive_(system.model.rows),
       drive_rate_(system.model.rows),
       drive_acceleration_(system.model.rows),
+      modes_(system.friction.size()),
+      normal_(system.friction.size()),
+      slip_(system.friction.size()),
+      applied_(system.model.links.size()),
+      joint_(system.model.links.size()),
+      applied_generalised_(system.model.velocities),
+      link_acceleration_(system.model.links.size()),
       acceleration_(system.model.velocities),
       reaction_(system.model.rows),
       residual_(system.model.rows),
       correction_(system.model.velocities),
-      none_(system.model.rows) {}
+      none_(system.model.rows) {
+  for (const Friction& friction : system.friction) {
+    size_t index = 0;
+    while (system.model.linear[index].row != friction.row) ++index;
+    friction_row_.push_back(static_cast<int>(index));
+  }
+}
 
 void Evaluator::UpdateDrives(double time) {
   for (size_t r = 0; r < system_.drives.size(); ++r) {
@@ -52,9 +65,176 @@ void Evaluator::CalcRates(double time, std::span<const double> y, std::span<doub
     system_.forces[g]->AddForces(
         ForceContext<double>{model, time, q, v, states + first, state_rates + first, w_});
   }
-  SolveAccelerations(model, drive_acceleration_, w_, acceleration_, reaction_);
+  for (size_t f = 0; f < modes_.size(); ++f) slip_[f] = CalcSlip(static_cast<int>(f), y);
+  SolveWithFriction();
   CalcPositionRates(model, q, v, rate.data());
   std::copy(acceleration_.begin(), acceleration_.end(), rate.begin() + model.positions);
+}
+
+const LinearRow& Evaluator::GetRow(const Friction& friction) const {
+  return system_.model.linear[friction_row_[&friction - system_.friction.data()]];
+}
+
+double Evaluator::CalcSlip(int f, std::span<const double> y) const {
+  const LinearRow& row = GetRow(system_.friction[f]);
+  double slip = -drive_rate_[row.row];
+  for (const LinearRow::Term& term : row.terms) {
+    slip += term.factor * y[system_.model.positions + term.v];
+  }
+  return slip;
+}
+
+double Evaluator::CalcStaticLimit(const Friction& friction, double normal) const {
+  return friction.static_force + friction.static_coefficient * normal;
+}
+
+double Evaluator::CalcKineticLimit(const Friction& friction, double normal, double slip) const {
+  const double kinetic = friction.kinetic_force + friction.kinetic_coefficient * normal;
+  if (friction.stribeck == Friction::Stribeck::kNone) return kinetic;
+  const double x = std::abs(slip) / friction.stribeck_speed;
+  const double share =
+      friction.stribeck == Friction::Stribeck::kExponential ? std::exp(-x) : 1 / (1 + x);
+  return kinetic + (CalcStaticLimit(friction, normal) - kinetic) * share;
+}
+
+double Evaluator::CalcNormalForce(const Friction& friction) {
+  double normal = friction.preload;
+  if (!friction.normal_rows.empty()) {
+    double square = 0;
+    for (int r : friction.normal_rows) square += reaction_[r] * reaction_[r];
+    normal += std::sqrt(square);
+  }
+  if (friction.normal_link != 0) {
+    CalcJointWrenches();
+    const Link& link = system_.model.links[friction.normal_link];
+    Vector3<double> force = joint_[friction.normal_link].f;
+    if (link.kind == JointKind::kPrismatic) {
+      const Vector3<double>& axis = w_.axes[link.v].v;
+      force -= Dot(axis, force) * axis;
+    }
+    normal += CalcNorm(force);
+  }
+  return normal;
+}
+
+// Accelerations with the friction forces of the present modes. Where a limit depends on a normal
+// force, which depends on the friction force, both are iterated to agreement.
+void Evaluator::SolveWithFriction() {
+  constexpr int kIterations = 50;
+  const Model& model = system_.model;
+  if (modes_.empty()) {
+    std::copy(w_.f.begin(), w_.f.end(), applied_.begin());
+    SolveAccelerations(model, drive_acceleration_, w_, acceleration_, reaction_);
+    return;
+  }
+  std::copy(w_.f.begin(), w_.f.end(), applied_.begin());
+  std::copy(w_.generalised.begin(), w_.generalised.end(), applied_generalised_.begin());
+  for (int iteration = 0; iteration < kIterations; ++iteration) {
+    std::copy(applied_.begin(), applied_.end(), w_.f.begin());
+    std::copy(applied_generalised_.begin(), applied_generalised_.end(), w_.generalised.begin());
+    for (size_t f = 0; f < modes_.size(); ++f) {
+      if (modes_[f] == 0) continue;
+      const Friction& friction = system_.friction[f];
+      const double force = -modes_[f] * CalcKineticLimit(friction, normal_[f], slip_[f]);
+      for (const LinearRow::Term& term : GetRow(friction).terms) {
+        w_.generalised[term.v] += term.factor * force;
+      }
+    }
+    SolveAccelerations(model, drive_acceleration_, w_, acceleration_, reaction_);
+    bool agrees = true;
+    for (size_t f = 0; f < modes_.size(); ++f) {
+      const double normal = CalcNormalForce(system_.friction[f]);
+      agrees &= std::abs(normal - normal_[f]) <= 1e-13 * std::abs(normal);
+      normal_[f] = normal;
+    }
+    if (agrees) return;
+  }
+  throw std::runtime_error(
+      "dry friction and the normal force it depends on do not agree (a jam): the friction "
+      "coefficient "
+      "is too large for the geometry");
+}
+
+void Evaluator::SetMode(int f, int mode) {
+  modes_[f] = mode;
+  w_.active[system_.friction[f].row] = mode == 0 ? 1 : 0;
+}
+
+bool Evaluator::UpdateModes(double time, std::span<const double> y, double still) {
+  const int count = static_cast<int>(modes_.size());
+  if (count == 0) return false;
+  const std::vector<int> before = modes_;
+  UpdateDrives(time);
+  for (int f = 0; f < count; ++f) {
+    const double slip = CalcSlip(f, y);
+    SetMode(f, slip > still ? 1 : slip < -still ? -1 : 0);
+  }
+  // Release the element that is most beyond its limit, one at a time: its neighbours may hold once
+  // it has given way.
+  std::vector<double> rate(system_.size());
+  for (int released = 0; released < count; ++released) {
+    CalcRates(time, y, rate);
+    int worst = -1;
+    double largest = 1;
+    for (int f = 0; f < count; ++f) {
+      if (modes_[f] != 0) continue;
+      const Friction& friction = system_.friction[f];
+      const double share =
+          std::abs(reaction_[friction.row]) / CalcStaticLimit(friction, normal_[f]);
+      if (share > largest) {
+        largest = share;
+        worst = f;
+      }
+    }
+    if (worst < 0) break;
+    SetMode(worst, reaction_[system_.friction[worst].row] > 0 ? -1 : 1);
+  }
+  return modes_ != before;
+}
+
+void Evaluator::CalcSwitches(std::span<const double> y, std::span<double> switches) const {
+  for (size_t f = 0; f < modes_.size(); ++f) {
+    const Friction& friction = system_.friction[f];
+    switches[f] = modes_[f] == 0
+                      ? CalcStaticLimit(friction, normal_[f]) - std::abs(reaction_[friction.row])
+                      : modes_[f] * CalcSlip(static_cast<int>(f), y);
+  }
+}
+
+std::span<const Wrench<double>> Evaluator::CalcJointWrenches() {
+  const Model& model = system_.model;
+  const int links = static_cast<int>(model.links.size());
+  link_acceleration_[0] = w_.A[0];
+  for (int l = 1; l < links; ++l) {
+    const Link& link = model.links[l];
+    // A[l] - A[parent] is what the link's own motion adds at zero joint accelerations
+    Motion<double> a = link_acceleration_[link.parent] + (w_.A[l] - w_.A[link.parent]);
+    for (int i = 0; i < CountVelocities(link.kind); ++i) {
+      a = a + acceleration_[link.v + i] * w_.axes[link.v + i];
+    }
+    link_acceleration_[l] = a;
+    joint_[l] = Wrench<double>{} - applied_[l];
+    if (link.mass == 0) continue;
+    const auto I =
+        math::MakeInertia(link.mass, link.centre, link.central_inertia, w_.R[l], w_.p[l]);
+    joint_[l] = joint_[l] + I * a + Cross(w_.V[l], I * w_.V[l]);
+  }
+  const auto react = [&](int a, int b, int row) {
+    joint_[a] = joint_[a] - reaction_[row] * w_.W[row];
+    joint_[b] = joint_[b] + reaction_[row] * w_.W[row];
+  };
+  for (const PointClosure& c : model.points) {
+    for (int r = 0; r < __builtin_popcount(c.axes); ++r) react(c.a, c.b, c.row + r);
+  }
+  for (const PerpendicularClosure& c : model.perpendiculars) react(c.a, c.b, c.row);
+  for (const DistanceClosure& c : model.distances) react(c.a, c.b, c.row);
+  for (const RollingDisc& c : model.discs) {
+    for (int r = 0; r < 3; ++r) react(c.a, c.b, c.row + r);
+  }
+  for (int l = links - 1; l > 0; --l) {
+    joint_[model.links[l].parent] = joint_[model.links[l].parent] + joint_[l];
+  }
+  return joint_;
 }
 
 double Evaluator::CalcPositionResiduals(const double* q) {
@@ -84,6 +264,9 @@ double Evaluator::CalcVelocityResiduals(const double* v) {
   }
   for (const LinearRow& row : model.linear) {
     for (const LinearRow::Term& term : row.terms) residual_[row.row] += term.factor * v[term.v];
+  }
+  for (size_t f = 0; f < modes_.size(); ++f) {
+    if (modes_[f] != 0) residual_[system_.friction[f].row] = 0;  // it slides
   }
   double largest = 0;
   for (double x : residual_) largest = std::max(largest, std::abs(x));
@@ -118,7 +301,8 @@ void Evaluator::SolveForCorrection() {
   FactoriseAndSolve(model, w_, correction_, reaction_);
 }
 
-void Evaluator::Project(double time, std::span<double> y, double tolerance) {
+void Evaluator::Project(double time, std::span<double> y, double position_tolerance,
+                        double velocity_tolerance) {
   const Model& model = system_.model;
   constexpr int kIterations = 20;
   double* q = y.data();
@@ -126,18 +310,18 @@ void Evaluator::Project(double time, std::span<double> y, double tolerance) {
   NormaliseQuaternions(model, {q, static_cast<size_t>(model.positions)});
   if (model.rows == 0) return;
   UpdateKinematics(time, y);
-  for (int iteration = 0; CalcPositionResiduals(q) > tolerance; ++iteration) {
+  for (int iteration = 0; CalcPositionResiduals(q) > position_tolerance; ++iteration) {
     if (iteration == kIterations) {
       const int worst = FindWorstRow();
       throw std::runtime_error(fmt::format(
-          "the constraints cannot be met to {:g} at t = {:g} s: '{}' stays open by {:g}", tolerance,
-          time, model.row_names[worst], residual_[worst]));
+          "the constraints cannot be met to {:g} at t = {:g} s: '{}' stays open by {:g}",
+          position_tolerance, time, model.row_names[worst], residual_[worst]));
     }
     SolveForCorrection();
     MovePositions(model, correction_, {q, static_cast<size_t>(model.positions)});
     UpdateKinematics(time, y);
   }
-  if (CalcVelocityResiduals(v) > tolerance) {
+  if (CalcVelocityResiduals(v) > velocity_tolerance) {
     SolveForCorrection();
     for (int i = 0; i < model.velocities; ++i) v[i] += correction_[i];
   }
@@ -164,6 +348,14 @@ Energy Evaluator::CalcEnergy(double time, std::span<const double> y) {
     energy.potential += rates.potential;
     energy.dissipated += rates.dissipated;
     energy.supplied += rates.supplied;
+  }
+  for (size_t f = 0; f < modes_.size(); ++f) {
+    if (modes_[f] == 0) continue;
+    const double slip = CalcSlip(static_cast<int>(f), y);
+    energy.dissipated += CalcKineticLimit(system_.friction[f], normal_[f], slip) * std::abs(slip);
+    // a moving counterpart drives what rubs against it
+    energy.supplied -= modes_[f] * CalcKineticLimit(system_.friction[f], normal_[f], slip) *
+                       drive_rate_[system_.friction[f].row];
   }
   // a driven row works with its reaction along its rate
   for (int r = 0; r < model.rows; ++r) energy.supplied += reaction_[r] * drive_rate_[r];

@@ -33,6 +33,24 @@ class Evaluator {
   std::span<const double> accelerations() const { return acceleration_; }
   const Workspace<double>& workspace() const { return w_; }
 
+  /// Dry friction: what each element of `system().friction` does, 0 sticks, ±1 slides that way.
+  std::span<const int> modes() const { return modes_; }
+  /// Chooses the modes at (time, y): elements with a rate above `still` slide, the others stick if
+  /// their static limits allow, and otherwise begin to slide the way the force drives them.
+  /// @returns whether any mode changed
+  bool UpdateModes(double time, std::span<const double> y, double still);
+  /// Per friction element, a function of the state that is positive as long as its mode holds:
+  /// sliding, the rate in the direction of sliding; sticking, the static limit minus the size of
+  /// the reaction. After CalcRates at (time, y).
+  void CalcSwitches(std::span<const double> y, std::span<double> switches) const;
+  /// Rate of the row of friction element f [m/s, rad/s].
+  double CalcSlip(int f, std::span<const double> y) const;
+
+  /// What each joint of the tree transmits: the wrench on link l by its parent through the joint,
+  /// world axes, about the reference point, the applied forces of drives, motors and friction along
+  /// the joint's own coordinates included. After CalcRates.
+  std::span<const Wrench<double>> CalcJointWrenches();
+
   /// Largest |Φ| [m or rad] and largest |Dᵀv - ṡ| [m/s or rad/s] at (time, y); redundant rows
   /// count, too.
   struct Residuals {
@@ -40,16 +58,23 @@ class Evaluator {
   };
   Residuals CalcResiduals(double time, std::span<const double> y);
 
-  /// Moves q, by the least kinetic-energy distance, until |Φ| <= tolerance, then v until |Dᵀv - ṡ|
-  /// <= tolerance (in 1/s of the same), and brings quaternions back to unit length. Rows that are
-  /// not active keep what they have.
+  /// Moves q, by the least kinetic-energy distance, until |Φ| <= position_tolerance, corrects v
+  /// once if |Dᵀv - ṡ| > velocity_tolerance (which leaves rounding), and brings quaternions back to
+  /// unit length. Rows that are not active keep what they have.
   /// @throws std::runtime_error if that fails; the message names the worst row
-  void Project(double time, std::span<double> y, double tolerance);
+  void Project(double time, std::span<double> y, double position_tolerance,
+               double velocity_tolerance);
 
   /// At (time, y) after CalcRates there.
   Energy CalcEnergy(double time, std::span<const double> y);
 
  private:
+  void SolveWithFriction();
+  double CalcNormalForce(const Friction& friction);
+  double CalcStaticLimit(const Friction& friction, double normal) const;
+  double CalcKineticLimit(const Friction& friction, double normal, double slip) const;
+  const LinearRow& GetRow(const Friction& friction) const;
+  void SetMode(int f, int mode);
   void UpdateKinematics(double time, std::span<const double> y);
   void UpdateDrives(double time);
   double CalcPositionResiduals(const double* q);  // into residual_
@@ -60,6 +85,12 @@ class Evaluator {
   const System& system_;
   Workspace<double> w_;
   std::vector<double> drive_, drive_rate_, drive_acceleration_;
+  std::vector<int> modes_;
+  std::vector<double> normal_, slip_;  // per friction element
+  std::vector<int> friction_row_;      // index into model.linear
+  std::vector<Wrench<double>> applied_, joint_;
+  std::vector<double> applied_generalised_;
+  std::vector<Motion<double>> link_acceleration_;
   std::vector<double> acceleration_, reaction_, residual_, correction_, none_;
 };
 

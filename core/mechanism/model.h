@@ -127,6 +127,8 @@ struct Model {
   std::vector<RollingDisc> discs;
   std::vector<std::string> row_names;
   std::vector<char> holonomic;  ///< per row: has a Φ
+  std::vector<char>
+      switching;  ///< per row: comes and goes (dry friction); never stands in for a row that stays
 
   /// The link whose origin is the point that all motions and wrenches refer to: the first free
   /// root, so that a vehicle far from the world's origin loses no digits; 0 (the world's origin)

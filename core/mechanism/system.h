@@ -50,12 +50,37 @@ class ForceGroup {
 /// A motion s(t) that a row of coordinates follows: value, rate, acceleration.
 using Drive = std::function<std::array<double, 3>(double time)>;
 
+/// Set-valued (Coulomb) dry friction along a row of coordinates. While it sticks, the row is a
+/// constraint and its reaction the friction force; it holds exactly. While it slides, the row is
+/// out and the friction force is -sign(ṡ) times the kinetic limit.
+///
+///   static limit   F_s = static_force + static_coefficient N
+///   kinetic limit  F_k = kinetic_force + kinetic_coefficient N,
+///                  or with a Stribeck speed v_S: F_k + (F_s - F_k) g(|ṡ|/v_S), g = exp(-x) or 1/(1
+///                  + x)
+///
+/// with ṡ the rate of the row. N is the size of the normal force: of the rows named, or of the
+/// force that a joint of the tree transmits (prismatic: its part perpendicular to the axis), plus a
+/// preload.
+struct Friction {
+  enum class Stribeck { kNone, kExponential, kHyperbolic };
+  int row = 0;  ///< a LinearRow that is rate_only
+  double static_force = 0, kinetic_force = 0;
+  double static_coefficient = 0, kinetic_coefficient = 0;
+  double preload = 0;            ///< part of N
+  std::vector<int> normal_rows;  ///< N counts the norm of their reactions
+  int normal_link = 0;           ///< N counts the force through the joint of this link; 0: of none
+  Stribeck stribeck = Stribeck::kNone;
+  double stribeck_speed = 0;
+};
+
 /// A mechanism with everything that acts on it. Immutable; shared by all threads.
 struct System {
   std::string name;
   Model model;
   std::vector<std::unique_ptr<ForceGroup>> forces;
-  std::vector<Drive> drives;     ///< per row; empty function: 0
+  std::vector<Drive> drives;  ///< per row; empty function: 0
+  std::vector<Friction> friction;
   std::vector<int> first_state;  ///< per group
   int states = 0;                ///< of all groups
 

@@ -24,7 +24,7 @@ std::vector<double> Integrate(const Mechanism& mechanism, Method method, double 
       if (n == 0 || method == Method::kRosenbrock) rosenbrock.UpdateJacobian(evaluator, n * h, y);
       rosenbrock.Step(evaluator, n * h, h, y);
     }
-    evaluator.Project((n + 1) * h, y, 1e-13);
+    evaluator.Project((n + 1) * h, y, 1e-13, 1e-13);
   }
   return y;
 }

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <functional>
+#include <span>
+
+#include "core/solve/stepper.h"
+
+namespace kingpin::solve {
+
+struct SimulationOptions {
+  StepperOptions stepper;
+  double duration = 1;            ///< [s]
+  double sample_interval = 1e-3;  ///< [s]; 0: every step
+  /// Times at which a drive or a force has a kink: steps end there, so that no method steps over
+  /// it.
+  std::vector<double> kinks;
+};
+
+/// The books of a run.
+struct Ledger {
+  double energy_start = 0, energy_end = 0;  ///< kinetic and potential [J]
+  double dissipated = 0, supplied = 0;      ///< over the run [J]
+  double largest_energy_error = 0;  ///< of |E - E_start - supplied + dissipated| at any step [J]
+  double largest_kinetic = 0;       ///< to judge it by [J]
+  double largest_position_residual = 0;  ///< [m, rad]
+  double largest_velocity_residual = 0;  ///< [m/s, rad/s]
+  long steps = 0, jacobians = 0, switches = 0;
+};
+
+/// Called at t = 0 and at every sample, after CalcRates there.
+using Observer =
+    std::function<void(double time, std::span<const double> y, mechanism::Evaluator& evaluator)>;
+
+/// Integrates y from t = 0 in place. Dry friction switches where its conditions change sign: a step
+/// over such an instant is cut there (to 1e-12 of the step), under every method.
+///
+/// @throws std::runtime_error if the motion cannot be continued; the message says when and why.
+/// What was observed before
+///     stands.
+Ledger Simulate(const mechanism::System& system, const SimulationOptions& options,
+                std::span<double> y, const Observer& observe);
+
+}  // namespace kingpin::solve
