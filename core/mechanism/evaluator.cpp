@@ -122,7 +122,7 @@ double Evaluator::CalcNormalForce(const Friction& friction) {
 void Evaluator::SolveWithFriction() {
   constexpr int kIterations = 50;
   const Model& model = system_.model;
-  if (modes_.empty()) {
+  if (modes_.empty() || friction_released_) {
     std::copy(w_.f.begin(), w_.f.end(), applied_.begin());
     SolveAccelerations(model, drive_acceleration_, w_, acceleration_, reaction_);
     return;
@@ -160,9 +160,15 @@ void Evaluator::SetMode(int f, int mode) {
   w_.active[system_.friction[f].row] = mode == 0 ? 1 : 0;
 }
 
+void Evaluator::ReleaseFriction() {
+  for (size_t f = 0; f < modes_.size(); ++f) SetMode(static_cast<int>(f), 1);
+  friction_released_ = true;
+}
+
 bool Evaluator::UpdateModes(double time, std::span<const double> y, double still) {
   const int count = static_cast<int>(modes_.size());
   if (count == 0) return false;
+  friction_released_ = false;
   const std::vector<int> before = modes_;
   UpdateDrives(time);
   for (int f = 0; f < count; ++f) {

@@ -39,6 +39,8 @@ class Evaluator {
   /// their static limits allow, and otherwise begin to slide the way the force drives them.
   /// @returns whether any mode changed
   bool UpdateModes(double time, std::span<const double> y, double still);
+  /// Takes dry friction out until the next UpdateModes.
+  void ReleaseFriction();
   /// Per friction element, a function of the state that is positive as long as its mode holds:
   /// sliding, the rate in the direction of sliding; sticking, the static limit minus the size of
   /// the reaction. After CalcRates at (time, y).
@@ -86,6 +88,7 @@ class Evaluator {
   Workspace<double> w_;
   std::vector<double> drive_, drive_rate_, drive_acceleration_;
   std::vector<int> modes_;
+  bool friction_released_ = false;
   std::vector<double> normal_, slip_;  // per friction element
   std::vector<int> friction_row_;      // index into model.linear
   std::vector<Wrench<double>> applied_, joint_;

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <span>
+
+#include "core/mechanism/system.h"
+
+namespace kingpin::solve {
+
+struct EquilibriumOptions {
+  double tolerance =
+      1e-9;  ///< of the accelerations left [m/s^2, rad/s^2] and of the rates of states
+  int iterations = 500;
+};
+
+struct Equilibrium {
+  int iterations = 0;
+  double residual = 0;  ///< largest acceleration or rate left
+};
+
+/// Moves y to a position in which the system rests: constraints met, v = 0, accelerations and rates
+/// of states zero.
+///
+/// Pseudo-transient continuation (Kelley and Keyes, SIAM J. Numer. Anal. 35, 1998): implicit steps
+/// of motion without inertia, ξ' = a(ξ), in the directions that the constraints leave, with exact
+/// derivatives,
+///
+///   (1/δ - ∂a/∂ξ) Δξ = a,
+///
+/// whose step δ grows as the accelerations fall. Far away it goes downhill, which leads to stable
+/// positions; near the end it is Newton's method. Directions in which nothing changes (a car's
+/// place on a plane) stay as they are.
+///
+/// Dry friction is left out: a position that friction alone holds is not unique.
+///
+/// @throws std::runtime_error if nothing comes to rest; the message names the link that accelerates
+/// most
+Equilibrium FindEquilibrium(const mechanism::System& system, const EquilibriumOptions& options,
+                            std::span<double> y);
+
+}  // namespace kingpin::solve
