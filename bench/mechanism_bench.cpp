@@ -3,7 +3,7 @@
 #include <benchmark/benchmark.h>
 
 #include "bench/benchmark_mechanisms.h"
-#include "core/mechanism/acceleration_kernel.h"
+#include "core/mechanism/lane_accelerations.h"
 
 namespace kingpin::mechanism {
 namespace {
@@ -21,7 +21,7 @@ void BM_Accelerations(benchmark::State& state, Maker make) {
   const int lanes = static_cast<int>(state.range(0));
   std::vector<double> q0;
   const Model model = make(q0);
-  const auto kernel = MakeAccelerationKernel(model, lanes);
+  const auto kernel = MakeLaneAccelerations(model, lanes);
   std::mt19937_64 random(1);
   std::normal_distribution<double> normal;
   std::vector<double> q(model.positions * lanes), force(model.velocities * lanes);

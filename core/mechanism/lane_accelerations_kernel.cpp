@@ -1,7 +1,7 @@
 // Compiled once per instruction set; KINGPIN_ISA names its tag.
 #include "core/math/pack.h"
-#include "core/mechanism/acceleration_kernel.h"
 #include "core/mechanism/dynamics.h"
+#include "core/mechanism/lane_accelerations.h"
 
 namespace kingpin::mechanism {
 
@@ -10,11 +10,11 @@ namespace {
 using Isa = isa::KINGPIN_ISA;
 
 template <int N>
-class LaneAccelerations final : public AccelerationKernel {
+class Kernel final : public LaneAccelerations {
  public:
   using S = math::Pack<double, N, Isa>;
 
-  explicit LaneAccelerations(const Model& model)
+  explicit Kernel(const Model& model)
       : model_(model), w_(model), q_(model.positions), v_(model.velocities), drive_(model.rows) {}
 
   int lanes() const override { return N; }
@@ -52,9 +52,9 @@ class LaneAccelerations final : public AccelerationKernel {
 
 }  // namespace
 
-std::unique_ptr<AccelerationKernel> MakeAccelerationKernel(const Model& model, int lanes, Isa) {
-  if (lanes == 1) return std::unique_ptr<AccelerationKernel>(new LaneAccelerations<1>(model));
-  return std::unique_ptr<AccelerationKernel>(new LaneAccelerations<8>(model));
+std::unique_ptr<LaneAccelerations> MakeLaneAccelerations(const Model& model, int lanes, Isa) {
+  if (lanes == 1) return std::unique_ptr<LaneAccelerations>(new Kernel<1>(model));
+  return std::unique_ptr<LaneAccelerations>(new Kernel<8>(model));
 }
 
 }  // namespace kingpin::mechanism

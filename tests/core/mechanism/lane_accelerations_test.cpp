@@ -1,4 +1,4 @@
-#include "core/mechanism/acceleration_kernel.h"
+#include "core/mechanism/lane_accelerations.h"
 
 #include <gtest/gtest.h>
 
@@ -35,13 +35,13 @@ Model MakeLoops(RandomMechanism& random, std::vector<double>& q) {
   return model;
 }
 
-TEST(AccelerationKernel, EveryLaneGivesWhatTheScalarSolutionGives) {
+TEST(LaneAccelerations, EveryLaneGivesWhatTheScalarSolutionGives) {
   RandomMechanism random(21);
   for (int trial = 0; trial < 5; ++trial) {
     std::vector<double> q0;
     const Model model = MakeLoops(random, q0);
     for (int lanes : {1, 8}) {
-      const auto kernel = MakeAccelerationKernel(model, lanes);
+      const auto kernel = MakeLaneAccelerations(model, lanes);
       ASSERT_EQ(kernel->lanes(), lanes);
       std::vector<double> q(model.positions * lanes), v(model.velocities * lanes),
           force(model.velocities * lanes), a(model.velocities * lanes), r(model.rows * lanes);

@@ -11,9 +11,9 @@ namespace kingpin::mechanism {
 /// one, with the machine's best instruction set). Owns its workspace: one per thread.
 ///
 /// All arrays hold the lanes of one number next to each other: q[i * lanes + lane].
-class AccelerationKernel {
+class LaneAccelerations {
  public:
-  virtual ~AccelerationKernel();
+  virtual ~LaneAccelerations();
   virtual int lanes() const = 0;
 
   /// @param q positions, v velocities, force generalised forces (applied along the coordinates)
@@ -28,14 +28,13 @@ class AccelerationKernel {
 
 /// @param lanes 1, or 8: one register of AVX-512, two of AVX2, four of the portable set. `model`
 /// must outlive the kernel.
-std::unique_ptr<AccelerationKernel> MakeAccelerationKernel(const Model& model, int lanes);
+std::unique_ptr<LaneAccelerations> MakeLaneAccelerations(const Model& model, int lanes);
 
 /// The same for a stated instruction set, which the machine must have.
-std::unique_ptr<AccelerationKernel> MakeAccelerationKernel(const Model& model, int lanes,
-                                                           isa::Portable);
-std::unique_ptr<AccelerationKernel> MakeAccelerationKernel(const Model& model, int lanes,
-                                                           isa::Avx2);
-std::unique_ptr<AccelerationKernel> MakeAccelerationKernel(const Model& model, int lanes,
-                                                           isa::Avx512);
+std::unique_ptr<LaneAccelerations> MakeLaneAccelerations(const Model& model, int lanes,
+                                                         isa::Portable);
+std::unique_ptr<LaneAccelerations> MakeLaneAccelerations(const Model& model, int lanes, isa::Avx2);
+std::unique_ptr<LaneAccelerations> MakeLaneAccelerations(const Model& model, int lanes,
+                                                         isa::Avx512);
 
 }  // namespace kingpin::mechanism
