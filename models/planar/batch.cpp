@@ -132,7 +132,7 @@ void BatchWorkspace::Run(std::span<const Parameters<T>> designs, const Excitatio
     double step = options.step;
     if (path == Path::kRungeKutta && options.method == Method::kFast) step = 0;
     if (step <= 0) {
-      step = path == Path::kLanes ? 2.5e-4 : path == Path::kSwitching ? 1e-4 : 1e-5;
+      step = path == Path::kLanes ? 2.5e-4 : path == Path::kSwitching ? 2e-4 : 1e-5;
       if (path == Path::kSwitching && options.method == Method::kRungeKutta4) step = 1e-5;
     }
     s.steps[static_cast<size_t>(i)] = step;

@@ -33,7 +33,7 @@ struct BatchOptions {
   double duration = 1.0;          ///< [s]
   double sample_interval = 1e-3;  ///< [s]
   Method method = Method::kFast;
-  double step = 0;  ///< largest step [s]; 0: 0.25 ms (fast), 0.1 ms (switching forces), 10 µs (RK4)
+  double step = 0;  ///< largest step [s]; 0: 0.25 ms (fast), 0.2 ms (switching forces), 10 µs (RK4)
   /// Bound of the estimated relative error of the velocities (fast method). The estimate adds
   /// absolute local errors, so it lies well above the true error; see bench/README.md.
   double tolerance = 1.5e-4;
