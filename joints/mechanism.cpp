@@ -7,12 +7,13 @@
 
 #include <fmt/format.h>
 
-#include "core/io/error.h"
+#include "bodies/rigid_inertia.h"
 #include "core/io/nearest_name.h"
 #include "core/math/quaternion.h"
 #include "core/mechanism/assemble.h"
 #include "core/mechanism/compile.h"
 #include "core/mechanism/kinematics.h"
+#include "joints/fail.h"
 
 namespace kingpin::joints {
 
@@ -24,24 +25,6 @@ using mechanism::Model;
 
 constexpr double kAssemblyTolerance = 1e-12;
 
-[[noreturn]] void Fail(const Source& source, std::string key, std::string found,
-                       std::string expected, std::string suggestion = {}) {
-  throw io::InputError({.file = source.file,
-                        .line = source.line,
-                        .key = std::move(key),
-                        .found = std::move(found),
-                        .expected = std::move(expected),
-                        .suggestion = std::move(suggestion)});
-}
-
-bool IsFinite(const Vector3<double>& a) {
-  return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z);
-}
-
-bool IsFinite(const Transform<double>& X) {
-  return IsFinite(X.p) && IsFinite(X.R.x) && IsFinite(X.R.y) && IsFinite(X.R.z);
-}
-
 void CheckUnit(const Source& source, const std::string& key, const Vector3<double>& axis) {
   const double norm = CalcNorm(axis);
   if (!(std::abs(norm - 1) < 1e-6)) {
@@ -52,34 +35,10 @@ void CheckUnit(const Source& source, const std::string& key, const Vector3<doubl
 }
 
 void CheckBody(const BodyDescription& body) {
-  const std::string key = fmt::format("bodies.{}", body.name);
-  if (!std::isfinite(body.mass) || body.mass < 0) {
-    Fail(body.source, key + ".mass", fmt::format("{:g} kg", body.mass),
-         "a mass that is not negative");
-  }
-  const auto& J = body.central_inertia;
-  for (double entry : J) {
-    if (!std::isfinite(entry)) {
-      Fail(body.source, key + ".inertia", fmt::format("{:g}", entry), "finite numbers [kg m^2]");
-    }
-  }
-  if (!IsFinite(body.centre))
-    Fail(body.source, key + ".centre", "a number that is not finite", "metres");
-  Eigen::Matrix3d tensor;
-  tensor << J[0], J[3], J[4], J[3], J[1], J[5], J[4], J[5], J[2];
-  const Eigen::Vector3d principal =
-      Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(tensor).eigenvalues();
-  const double slack = 1e-9 * std::abs(principal[2]);
-  if (principal[0] < -slack || principal[0] + principal[1] < principal[2] - slack) {
-    Fail(body.source, key + ".inertia",
-         fmt::format("principal moments {:g}, {:g}, {:g} kg m^2", principal[0], principal[1],
-                     principal[2]),
-         "moments that are not negative, none larger than the sum of the other two",
-         "is it given about the centre of mass, in kg m^2?");
-  }
-  if (body.mass == 0 && principal[2] > 0) {
-    Fail(body.source, key + ".mass", "0 kg with a moment of inertia", "a mass above zero");
-  }
+  const auto problem = bodies::FindInertiaProblem({body.mass, body.centre, body.central_inertia});
+  if (!problem) return;
+  Fail(body.source, fmt::format("bodies.{}.{}", body.name, problem->part), problem->found,
+       problem->expected, problem->suggestion);
 }
 
 // One primitive of a joint's chain: its kind, and the direction of its axis in the joint frame.

@@ -73,7 +73,13 @@ void FactoriseAndSolve(const Model& model, Workspace<double>& w, std::span<doubl
       right[i] = w.kept_k[model.pattern.GetRightSideSlot(i)];
     }
     w.k = w.kept_k;
-    SolveSingular(model, ExpandMatrix(model, w), right, acceleration, reaction);
+    const Eigen::MatrixXd K = ExpandMatrix(model, w);
+    if (!K.allFinite() || !right.allFinite()) {
+      throw std::runtime_error(
+          "the equations of motion hold a number that is not finite: positions, velocities or "
+          "forces have run away; smaller steps or less stiff forces may help");
+    }
+    SolveSingular(model, K, right, acceleration, reaction);
     return;
   }
   model.pattern.BackSubstitute(w.k.data(), w.x.data());

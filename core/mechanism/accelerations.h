@@ -16,7 +16,7 @@ namespace kingpin::mechanism {
 /// rows become
 ///     dependent (a singular position) is solved with the least reactions that meet the equations.
 /// @throws std::runtime_error if the rows contradict each other there: no accelerations meet all of
-/// them
+/// them; or if a position is not finite
 void SolveAccelerations(const Model& model, std::span<const double> drive_acceleration,
                         Workspace<double>& w, std::span<double> acceleration,
                         std::span<double> reaction);
