@@ -33,7 +33,7 @@ void AddVerbModes(CLI::App& app, CommonOptions& options) {
   const auto file = std::make_shared<std::string>();
   const auto held = std::make_shared<bool>(false);
   verb->add_option("FILE", *file, "A scenario file, or a folder with scenario.yaml")->required();
-  verb->add_flag("--held", *held, "With the steering wheel held");
+  verb->add_flag("--held", *held, "The table with the steering wheel held; JSON has free and held");
   AddOutputOption(*verb, options, "File for everything as JSON");
   AddSetOption(*verb, options);
   AddPrintOptions(*verb, options);

@@ -36,8 +36,8 @@
 ///       static const io::Schema<Rack> schema = [] {
 ///         io::Schema<Rack> s("rack", "Rack with everything rigidly fixed to it.");
 ///         s.Quantity("mass", &Rack::mass, "kg", "mass of the rack").Positive();
-///         s.Quantity("travel", &Rack::travel, "m", "from stop to stop").Positive().Default("150
-///         mm"); s.Quantity("preload", &Rack::preload, "N", "yoke force").NonNegative().Optional();
+///         s.Quantity("travel", &Rack::travel, "m", "stop to stop").Positive().Default("150 mm");
+///         s.Quantity("preload", &Rack::preload, "N", "yoke force").NonNegative().Optional();
 ///         return s;
 ///       }();
 ///       return schema;

@@ -162,19 +162,4 @@ Override ParseOverride(std::string_view text) {
   return Override{std::string(path), WithFile(node, kCommandLine)};
 }
 
-std::vector<Override> MakeOverrides(const Node& mapping) {
-  std::vector<Override> overrides;
-  if (mapping.is_null()) return overrides;
-  if (!mapping.is_mapping()) {
-    throw InputError(InputProblem{.file = mapping.file_name(),
-                                  .line = mapping.line,
-                                  .found = DescribeNode(mapping),
-                                  .expected = "a mapping of paths to values"});
-  }
-  for (const Node::Entry& entry : mapping.entries) {
-    overrides.push_back(Override{entry.key, entry.value});
-  }
-  return overrides;
-}
-
 }  // namespace kingpin::io

@@ -176,10 +176,6 @@ struct Override {
 /// Throws InputError.
 Override ParseOverride(std::string_view text);
 
-/// The overrides of a mapping in a file, e.g. of a study's `changes: {steering.rack.mass: 3 kg}`.
-/// Throws InputError when it is no mapping.
-std::vector<Override> MakeOverrides(const Node& mapping);
-
 struct ReadOptions {
   std::vector<Override> overrides;  ///< the last one for a path wins
 };

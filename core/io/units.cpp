@@ -28,7 +28,6 @@ struct Symbol {
 
 constexpr double kPi = std::numbers::pi;
 constexpr double kPound = 0.45359237;  // exact by definition
-constexpr double kGravity = 9.80665;   // standard gravity, exact by definition
 constexpr double kInch = 0.0254;       // exact by definition
 
 const Symbol kSymbols[] = {
@@ -60,8 +59,8 @@ const Symbol kSymbols[] = {
     {"in", {1, 0, 0, 0, 0, 0}, kInch, 1, false},
     {"ft", {1, 0, 0, 0, 0, 0}, 12 * kInch, 1, false},
     {"lb", {0, 1, 0, 0, 0, 0}, kPound, 1, false},
-    {"lbf", {1, 1, -2, 0, 0, 0}, kPound* kGravity, 1, false},
-    {"psi", {-1, 1, -2, 0, 0, 0}, kPound* kGravity, kInch* kInch, false},
+    {"lbf", {1, 1, -2, 0, 0, 0}, kPound* kStandardGravity, 1, false},
+    {"psi", {-1, 1, -2, 0, 0, 0}, kPound* kStandardGravity, kInch* kInch, false},
     {"%", {0, 0, 0, 0, 0, 0}, 1, 100, false},
     {"Nmm", {2, 1, -2, 0, 0, 0}, 1, 1000, false},
     {"Ns", {1, 1, -1, 0, 0, 0}, 1, 1, false},

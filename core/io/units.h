@@ -25,6 +25,9 @@
 /// frequency.
 namespace kingpin::io {
 
+/// Standard gravity, exact by definition (ISO 80000-3) [m/s^2].
+inline constexpr double kStandardGravity = 9.80665;
+
 /// Exponents in quarters (so that the vibration dose's m/s^1.75 is exact) of metre, kilogram,
 /// second, ampere, radian and cycle.
 struct Dimension {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/io/units.h"
 #include "models/parameters/car_mass.h"
 #include "models/parameters/front_geometry.h"
 
@@ -100,13 +101,13 @@ void AddMotion(const Car& car, List* list) {
             2.0 * kPi / car.steering.rack.travel_per_turn / std::abs(rack.rotation.z()), "-",
             "i_U/(rotation about z per rack travel)", kinematics);
   const StaticLoads loads = CalcStaticLoads(car);
-  const double front_sprung = loads.front_wheel - loads.front_unsprung * kGravity;
+  const double front_sprung = loads.front_wheel - loads.front_unsprung * io::kStandardGravity;
   list->Add("front.spring_force", front_sprung / bump.strut, "N",
             "(wheel load - unsprung weight)/strut ratio", "virtual work");
   const double front_rate = car.front.strut.spring_rate * bump.strut * bump.strut;
   list->Add("front.wheel_rate", front_rate, "N/m", "c ratio^2", "virtual work");
-  list->Add("front.body_frequency", CalcFrequency(front_rate, front_sprung / kGravity), "Hz",
-            "sqrt(c_wheel/m_sprung)/(2 pi), rigid tyre", "one mass");
+  list->Add("front.body_frequency", CalcFrequency(front_rate, front_sprung / io::kStandardGravity),
+            "Hz", "sqrt(c_wheel/m_sprung)/(2 pi), rigid tyre", "one mass");
   list->Add("front.wheel_hop",
             CalcFrequency(front_rate + car.tyres.vertical_stiffness, loads.front_unsprung), "Hz",
             "sqrt((c_wheel + c_tyre)/m_unsprung)/(2 pi)", "one mass");
@@ -117,13 +118,13 @@ void AddMotion(const Car& car, List* list) {
   list->Add("rear.spring_ratio", spring_ratio, "-", "spring's lever/arm length", "geometry");
   list->Add("rear.damper_ratio", (rear.pivot.position.x() - rear.damper_lower.x()) / arm, "-",
             "damper's lever/arm length", "geometry");
-  const double rear_sprung = loads.rear_wheel - loads.rear_unsprung * kGravity;
+  const double rear_sprung = loads.rear_wheel - loads.rear_unsprung * io::kStandardGravity;
   list->Add("rear.spring_force", rear_sprung / spring_ratio, "N",
             "(wheel load - unsprung weight)/spring ratio", "virtual work");
   const double rear_rate = rear.spring_damper.spring_rate * spring_ratio * spring_ratio;
   list->Add("rear.wheel_rate", rear_rate, "N/m", "c ratio^2", "virtual work");
-  list->Add("rear.body_frequency", CalcFrequency(rear_rate, rear_sprung / kGravity), "Hz",
-            "sqrt(c_wheel/m_sprung)/(2 pi), rigid tyre", "one mass");
+  list->Add("rear.body_frequency", CalcFrequency(rear_rate, rear_sprung / io::kStandardGravity),
+            "Hz", "sqrt(c_wheel/m_sprung)/(2 pi), rigid tyre", "one mass");
   list->Add("rear.wheel_hop",
             CalcFrequency(rear_rate + car.tyres.vertical_stiffness, loads.rear_unsprung), "Hz",
             "sqrt((c_wheel + c_tyre)/m_unsprung)/(2 pi)", "one mass");

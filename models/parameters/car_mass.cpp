@@ -2,6 +2,8 @@
 
 #include <Eigen/Geometry>
 
+#include "core/io/units.h"
+
 namespace kingpin::parameters {
 
 namespace {
@@ -85,8 +87,8 @@ StaticLoads CalcStaticLoads(const Car& car) {
   loads.centre_behind = front_x - whole.centre_of_mass.x();
   loads.centre_height = whole.centre_of_mass.z() - car.body.ground_height;
   const double rear_share = loads.centre_behind / loads.wheelbase;
-  loads.front_wheel = 0.5 * whole.mass * kGravity * (1.0 - rear_share);
-  loads.rear_wheel = 0.5 * whole.mass * kGravity * rear_share;
+  loads.front_wheel = 0.5 * whole.mass * io::kStandardGravity * (1.0 - rear_share);
+  loads.rear_wheel = 0.5 * whole.mass * io::kStandardGravity * rear_share;
   const double half_shafts = 0.5 * (car.driveline.left.mass + car.driveline.right.mass);
   loads.front_unsprung = CalcFrontCarrier(car).mass + 0.5 * (car.front.lower_control_arm.mass +
                                                              car.front.tie_rod.mass + half_shafts);

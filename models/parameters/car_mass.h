@@ -49,6 +49,4 @@ struct StaticLoads {
 /// that its pivots do not carry behind.
 StaticLoads CalcStaticLoads(const Car& car);
 
-inline constexpr double kGravity = 9.80665;  ///< standard gravity [m/s^2] (ISO 80000-3)
-
 }  // namespace kingpin::parameters

@@ -125,13 +125,6 @@ std::string_view ToString(PulseKind kind) {
   return "half_sine";
 }
 
-std::optional<PulseKind> FindPulseKind(std::string_view name) {
-  for (const KindName& entry : kKindNames) {
-    if (entry.name == name) return entry.kind;
-  }
-  return std::nullopt;
-}
-
 Excitation::Excitation() : id_(MakeId()) {}
 
 Excitation::Excitation(std::vector<Pulse> pulses) : pulses_(std::move(pulses)), id_(MakeId()) {

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -18,8 +17,6 @@ enum class PulseKind {
 };
 
 std::string_view ToString(PulseKind kind);
-/// Empty when no kind has that name.
-std::optional<PulseKind> FindPulseKind(std::string_view name);
 
 /// One pulse; u = (t − start)/duration in [0, 1], zero outside.
 struct Pulse {

@@ -1,6 +1,5 @@
 #include "models/planar/linear_export.h"
 
-#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "models/planar/linear_road_feel.h"
@@ -29,14 +28,13 @@ Json MakeRows(const Eigen::MatrixXd& matrix) {
   return rows;
 }
 
-void AppendMatrix(std::string& text, const char* name, const Eigen::MatrixXd& matrix) {
-  text += fmt::format("# {} ({} x {})\n", name, matrix.rows(), matrix.cols());
-  for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
-    for (Eigen::Index j = 0; j < matrix.cols(); ++j) {
-      text += fmt::format("{}{:.17g}", j == 0 ? "" : ",", matrix(i, j));
-    }
-    text += '\n';
-  }
+Json MakePart(const LinearModel& model, const Modes& modes, const FrequencyResponse& response) {
+  Json json;
+  json["stable"] = modes.stable;
+  json["modes"] = MakeJson(modes, model);
+  json["model"] = MakeJson(model);
+  json["frequency_response"] = MakeJson(response);
+  return json;
 }
 
 }  // namespace
@@ -90,7 +88,11 @@ Json MakeJson(const Modes& modes, const LinearModel& model) {
     }
     json["shares"] = std::move(shares);
     Json shape = Json::array();
-    for (const auto& value : mode.shape) shape.push_back({value.real(), value.imag()});
+    for (std::size_t i = 0; i < mode.shape.size(); ++i) {
+      shape.push_back({{"state", model.state_names[i]},
+                       {"unit", model.state_units[i]},
+                       {"value", {mode.shape[i].real(), mode.shape[i].imag()}}});
+    }
     json["shape"] = std::move(shape);
     json["summary"] = mode.summary;
     list.push_back(std::move(json));
@@ -98,46 +100,31 @@ Json MakeJson(const Modes& modes, const LinearModel& model) {
   return list;
 }
 
-Json MakeJson(const LinearAnalysis& analysis) {
+Json MakeJson(const FrequencyResponse& response) {
   Json json;
-  json["free"]["model"] = MakeJson(analysis.free);
-  json["free"]["modes"] = MakeJson(analysis.free_modes, analysis.free);
-  json["held"]["model"] = MakeJson(analysis.held);
-  json["held"]["modes"] = MakeJson(analysis.held_modes, analysis.held);
-  json["road_feel_gain"] = analysis.road_feel_gain;
-  json["static_road_feel_gain"] = analysis.static_road_feel_gain;
+  json["frequency"] = {{"unit", "Hz"}, {"values", response.frequency}};
+  json["responses"] = Json::array();
+  for (const auto& input : response.inputs) {
+    for (const auto& output : response.outputs) {
+      const BodeCurve curve = CalcBodeCurve(response, input, output);
+      json["responses"].push_back({{"input", input},
+                                   {"output", output},
+                                   {"unit", curve.unit},
+                                   {"magnitude", curve.magnitude},
+                                   {"phase", curve.phase}});
+    }
+  }
   return json;
 }
 
-std::string FormatMatricesAsCsv(const LinearModel& model) {
-  std::string text;
-  AppendMatrix(text, "A", model.a);
-  AppendMatrix(text, "B", model.b);
-  AppendMatrix(text, "C", model.c);
-  AppendMatrix(text, "D", model.d);
-  return text;
-}
-
-std::string FormatResponseAsCsv(const FrequencyResponse& response) {
-  std::vector<BodeCurve> curves;
-  std::string names = "frequency";
-  std::string units = "Hz";
-  for (const auto& input : response.inputs) {
-    for (const auto& output : response.outputs) {
-      curves.push_back(CalcBodeCurve(response, input, output));
-      names += fmt::format(",{0}/{1}.magnitude,{0}/{1}.phase", output, input);
-      units += fmt::format(",{},deg", curves.back().unit);
-    }
-  }
-  std::string text = names + '\n' + units + '\n';
-  for (std::size_t k = 0; k < response.frequency.size(); ++k) {
-    text += fmt::format("{:.17g}", response.frequency[k]);
-    for (const auto& curve : curves) {
-      text += fmt::format(",{:.17g},{:.17g}", curve.magnitude[k], curve.phase[k]);
-    }
-    text += '\n';
-  }
-  return text;
+Json MakeJson(const LinearAnalysis& analysis) {
+  Json json;
+  json["free"] = MakePart(analysis.free, analysis.free_modes, analysis.free_response);
+  json["held"] = MakePart(analysis.held, analysis.held_modes, analysis.held_response);
+  json["road_feel_gain"] = {{"value", analysis.road_feel_gain}, {"unit", "N m/(N m)"}};
+  json["static_road_feel_gain"] = {{"value", analysis.static_road_feel_gain},
+                                   {"unit", "N m/(N m)"}};
+  return json;
 }
 
 }  // namespace kingpin::planar

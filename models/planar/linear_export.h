@@ -8,8 +8,8 @@
 #include "models/planar/linear_model.h"
 #include "models/planar/linear_modes.h"
 
-/// Linear models, modes and frequency responses as JSON and CSV, for control design in other tools
-/// and for the verb `modes`.
+/// Linear models, modes and frequency responses as JSON, for control design in other tools: what
+/// the verb `modes` writes.
 namespace kingpin::planar {
 
 /// Everything that is known about the small motions of one planar model, as plain data.
@@ -37,18 +37,15 @@ LinearAnalysis AnalyseLinearly(const Parameters<double>& parameters,
 /// "notes"}`, matrices by rows.
 nlohmann::ordered_json MakeJson(const LinearModel& model);
 /// `[{"kind", "frequency", "damped_frequency", "damping_ratio", "eigenvalue": [re, im],
-/// "time_constant", "shares": {coordinate: share...}, "shape": [[re, im]...], "summary"}...]`
+/// "time_constant", "shares": {coordinate: share...}, "shape": [{"state", "unit", "value": [re,
+/// im]}...], "summary"}...]`; frequencies in Hz, eigenvalues in 1/s, time constants in s. A shape
+/// is relative: only ratios of its values mean something, in the ratio of their units.
 nlohmann::ordered_json MakeJson(const Modes& modes, const LinearModel& model);
-/// The whole analysis: `free` and `held`, each with `model` and `modes`, and `road_feel_gain`,
-/// `static_road_feel_gain`.
+/// `{"frequency": {"unit": "Hz", "values": [...]}, "responses": [{"input", "output", "unit",
+/// "magnitude": [...], "phase": [...]}...]}`, phases in degrees, unwrapped.
+nlohmann::ordered_json MakeJson(const FrequencyResponse& response);
+/// The whole analysis: `free` and `held`, each with `stable`, `modes`, `model` and
+/// `frequency_response`, and `road_feel_gain`, `static_road_feel_gain`.
 nlohmann::ordered_json MakeJson(const LinearAnalysis& analysis);
-
-/// The four matrices one after another as CSV, each under a comment line `# A (13 x 13)`, 17
-/// significant digits.
-std::string FormatMatricesAsCsv(const LinearModel& model);
-
-/// A table of all responses: `frequency`, then magnitude and phase of every output per input; the
-/// second row holds units.
-std::string FormatResponseAsCsv(const FrequencyResponse& response);
 
 }  // namespace kingpin::planar

@@ -448,24 +448,7 @@ class Integration {
     const double force = excitation_.CalcForce(t);
     Dynamics<double> d{};
     CalcDynamics<double>(model_.structure, model_.constants, x, force, mode_.slip, d);
-    History& h = result_.history;
-    h.time.push_back(t);
-    for (int i = 0; i < kCoordinates; ++i) {
-      h.q[i].push_back(x.q[i]);
-      h.v[i].push_back(x.v[i]);
-      h.a[i].push_back(d.a[i]);
-    }
-    h.rim_acceleration.push_back(d.a[4] * model_.constants.rim_radius);
-    h.torsion_torque.push_back(d.torsion_torque);
-    h.tie_rod_force.push_back(d.rod_force);
-    h.rack_force.push_back(d.rack_rod_force);
-    h.friction_force.push_back(d.friction_force);
-    h.assist_force.push_back(d.assist_force);
-    h.road_force.push_back(force);
-    h.kinetic_energy.push_back(CalcKineticEnergy(model_, x));
-    h.potential_energy.push_back(CalcPotentialEnergy(model_, x));
-    h.dissipated_energy.push_back(y[kDissipated]);
-    h.supplied_energy.push_back(y[kSupplied]);
+    result_.history.Append(t, force, model_, x, d, y[kDissipated], y[kSupplied]);
   }
 
   static int RateCallback(sunrealtype t, N_Vector y, N_Vector rate, void* self) {

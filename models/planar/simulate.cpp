@@ -224,23 +224,7 @@ class Recorder {
     const State<double>& x = now.state;
     const double force = excitation_.CalcForce(t);
     const Dynamics<double> d = CalcForces(model_, x, force, slip);
-    h_.time.push_back(t);
-    for (int i = 0; i < kCoordinates; ++i) {
-      h_.q[i].push_back(x.q[i]);
-      h_.v[i].push_back(x.v[i]);
-      h_.a[i].push_back(d.a[i]);
-    }
-    h_.rim_acceleration.push_back(d.a[4] * model_.constants.rim_radius);
-    h_.torsion_torque.push_back(d.torsion_torque);
-    h_.tie_rod_force.push_back(d.rod_force);
-    h_.rack_force.push_back(d.rack_rod_force);
-    h_.friction_force.push_back(d.friction_force);
-    h_.assist_force.push_back(d.assist_force);
-    h_.road_force.push_back(force);
-    h_.kinetic_energy.push_back(CalcKineticEnergy(model_, x));
-    h_.potential_energy.push_back(CalcPotentialEnergy(model_, x));
-    h_.dissipated_energy.push_back(now.ledger.dissipated);
-    h_.supplied_energy.push_back(now.ledger.supplied);
+    h_.Append(t, force, model_, x, d, now.ledger.dissipated, now.ledger.supplied);
   }
 
   History Take(const IntegrationRecord& integration) {
@@ -377,6 +361,27 @@ History Simulate(const Parameters<double>& parameters, const Excitation& excitat
     }
     used.step *= 0.5;
   }
+}
+
+void History::Append(double t, double force, const Model<double>& model, const State<double>& now,
+                     const Dynamics<double>& forces, double dissipated, double supplied) {
+  time.push_back(t);
+  for (int i = 0; i < kCoordinates; ++i) {
+    q[i].push_back(now.q[i]);
+    v[i].push_back(now.v[i]);
+    a[i].push_back(forces.a[i]);
+  }
+  rim_acceleration.push_back(forces.a[4] * model.constants.rim_radius);
+  torsion_torque.push_back(forces.torsion_torque);
+  tie_rod_force.push_back(forces.rod_force);
+  rack_force.push_back(forces.rack_rod_force);
+  friction_force.push_back(forces.friction_force);
+  assist_force.push_back(forces.assist_force);
+  road_force.push_back(force);
+  kinetic_energy.push_back(CalcKineticEnergy(model, now));
+  potential_energy.push_back(CalcPotentialEnergy(model, now));
+  dissipated_energy.push_back(dissipated);
+  supplied_energy.push_back(supplied);
 }
 
 double History::CalcEnergyResidual() const {

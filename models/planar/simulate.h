@@ -10,6 +10,13 @@
 
 namespace kingpin::planar {
 
+template <class S>
+struct Dynamics;
+template <class S>
+struct Model;
+template <class S>
+struct State;
+
 enum class Method {
   kFast,         ///< exponential Adams of seventh order (exponential_adams.h); the default
   kRungeKutta4,  ///< classical, fixed step: the paper's, and the reference of the fixed-step
@@ -57,6 +64,11 @@ struct History {
       supplied_energy;  ///< by road, assistance and lagged aligning torque since the start [J]
   IntegrationRecord integration;  ///< of Simulate
   std::size_t size() const { return time.size(); }
+
+  /// One more sample: `now` and what `forces` gives there under the road force F_T, and the
+  /// energies dissipated and supplied so far.
+  void Append(double t, double force, const Model<double>& model, const State<double>& now,
+              const Dynamics<double>& forces, double dissipated, double supplied);
 
   /// Largest |kinetic + potential + dissipated − supplied| over the largest |supplied|; rounding
   /// and the integration error are all that may remain (not for the one-way rod, which follows from

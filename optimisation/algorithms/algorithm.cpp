@@ -1,9 +1,9 @@
 #include "optimisation/algorithms/algorithm.h"
 
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "core/io/error.h"
 
@@ -29,24 +29,6 @@ std::string GetName(Algorithm algorithm) {
     if (value == algorithm) return name;
   }
   return "unknown";
-}
-
-std::vector<std::string> GetAlgorithmNames() {
-  std::vector<std::string> names;
-  for (const auto& entry : GetTable()) names.push_back(entry.second);
-  return names;
-}
-
-Algorithm ParseAlgorithm(std::string_view name) {
-  for (const auto& [value, known] : GetTable()) {
-    if (known == name) return value;
-  }
-  throw io::InputError({.file = {},
-                        .line = 0,
-                        .key = "algorithm",
-                        .found = fmt::format("'{}'", name),
-                        .expected = fmt::format("one of {}", fmt::join(GetAlgorithmNames(), ", ")),
-                        .suggestion = {}});
 }
 
 void CheckSuitable(Algorithm algorithm, const Problem& problem) {

@@ -1,8 +1,6 @@
 #pragma once
 
 #include <string>
-#include <string_view>
-#include <vector>
 
 #include "optimisation/algorithms/problem.h"
 
@@ -12,10 +10,6 @@ enum class Algorithm { kNelderMead, kSbplx, kBobyqa, kCobyla, kSlsqp, kCmaEs, kM
 
 /// The names users write: nelder_mead, sbplx, bobyqa, cobyla, slsqp, cma_es, multistart.
 std::string GetName(Algorithm algorithm);
-std::vector<std::string> GetAlgorithmNames();
-
-/// Throws io::InputError (key `algorithm`) for an unknown name.
-Algorithm ParseAlgorithm(std::string_view name);
 
 /// Throws io::InputError when the algorithm cannot treat this problem's constraints. All treat
 /// bounds and linear constraints; nonlinear inequalities need one that is not BOBYQA, nonlinear

@@ -30,15 +30,4 @@ std::vector<FrontPoint> FilterFront(std::vector<FrontPoint> points) {
   return front;
 }
 
-double CalcHypervolume(const std::vector<FrontPoint>& front, std::span<const double> reference) {
-  double area = 0;
-  double height = reference[1];
-  for (const FrontPoint& point : FilterFront(front)) {
-    if (point.objectives[0] >= reference[0] || point.objectives[1] >= height) continue;
-    area += (reference[0] - point.objectives[0]) * (height - point.objectives[1]);
-    height = point.objectives[1];
-  }
-  return area;
-}
-
 }  // namespace kingpin::optimisation

@@ -30,8 +30,4 @@ bool Dominates(std::span<const double> a, std::span<const double> b);
 /// objective.
 std::vector<FrontPoint> FilterFront(std::vector<FrontPoint> points);
 
-/// Area between a front of two objectives and `reference` (Zitzler and Thiele 1998): larger is
-/// better. Points that do not dominate the reference count nothing.
-double CalcHypervolume(const std::vector<FrontPoint>& front, std::span<const double> reference);
-
 }  // namespace kingpin::optimisation

@@ -48,13 +48,6 @@ std::vector<double> Problem::GetStart() const {
   return start;
 }
 
-bool Problem::HasEqualities() const {
-  for (const LinearConstraint& row : linear) {
-    if (row.equality) return true;
-  }
-  return !equalities.names.empty();
-}
-
 bool Problem::HasConstraints() const {
   return !linear.empty() || !inequalities.names.empty() || !equalities.names.empty();
 }
@@ -147,40 +140,6 @@ std::vector<LinearConstraint> MakeNonDecreasing(const Problem& problem,
     row.coefficients[nodes[k]] = 1;
     row.coefficients[nodes[k + 1]] = -1;
     row.bound = -least_step;
-    rows.push_back(std::move(row));
-  }
-  return rows;
-}
-
-std::vector<LinearConstraint> MakeOdd(const Problem& problem, std::span<const std::size_t> nodes) {
-  std::vector<LinearConstraint> rows;
-  for (std::size_t k = 0; 2 * k < nodes.size(); ++k) {
-    const std::size_t mirror = nodes.size() - 1 - k;
-    LinearConstraint row;
-    row.name = fmt::format("{} = -{}", problem.variables[nodes[k]].name,
-                           problem.variables[nodes[mirror]].name);
-    row.coefficients.assign(problem.size(), 0.0);
-    row.coefficients[nodes[k]] += 1;
-    row.coefficients[nodes[mirror]] += 1;
-    row.equality = true;
-    rows.push_back(std::move(row));
-  }
-  return rows;
-}
-
-std::vector<LinearConstraint> MakeConvex(const Problem& problem, std::span<const std::size_t> nodes,
-                                         std::span<const double> abscissae) {
-  std::vector<LinearConstraint> rows;
-  for (std::size_t k = 1; k + 1 < nodes.size(); ++k) {
-    const double before = abscissae[k] - abscissae[k - 1];
-    const double after = abscissae[k + 1] - abscissae[k];
-    LinearConstraint row;
-    row.name = fmt::format("convex at {}", problem.variables[nodes[k]].name);
-    row.coefficients.assign(problem.size(), 0.0);
-    // slope before - slope after <= 0, multiplied by both widths to stay well scaled
-    row.coefficients[nodes[k - 1]] = -after;
-    row.coefficients[nodes[k]] = before + after;
-    row.coefficients[nodes[k + 1]] = -before;
     rows.push_back(std::move(row));
   }
   return rows;

@@ -57,7 +57,6 @@ struct Problem {
 
   std::size_t size() const { return variables.size(); }
   std::vector<double> GetStart() const;
-  bool HasEqualities() const;
   bool HasConstraints() const;
   /// True when every value comes with an exact derivative.
   bool HasExactGradients() const;
@@ -79,16 +78,11 @@ BatchGradient MakeBatchGradient(
     std::size_t variables,
     std::function<double(std::span<const double> x, std::span<double> gradient)> function);
 
-/// Shape conditions of a curve whose node values are the variables `nodes`, in the order of the
-/// abscissa. Add the result to Problem::linear.
-/// - non-decreasing: y_i - y_(i+1) <= -least_step;
-/// - odd about the middle node: y_i + y_(n-1-i) = 0 (the middle one of an odd number is zero);
-/// - convex (for equal or unequal abscissae s): the slopes do not fall.
+/// Shape condition of a curve whose node values are the variables `nodes`, in the order of the
+/// abscissa: it never falls, y_i - y_(i+1) <= -least_step. Add the result to Problem::linear. (An
+/// odd curve has one variable for x and -x, so it needs no condition.)
 std::vector<LinearConstraint> MakeNonDecreasing(const Problem& problem,
                                                 std::span<const std::size_t> nodes,
                                                 double least_step = 0);
-std::vector<LinearConstraint> MakeOdd(const Problem& problem, std::span<const std::size_t> nodes);
-std::vector<LinearConstraint> MakeConvex(const Problem& problem, std::span<const std::size_t> nodes,
-                                         std::span<const double> abscissae);
 
 }  // namespace kingpin::optimisation

@@ -79,21 +79,6 @@ std::string EscapeHtml(std::string_view text) {
   return out;
 }
 
-std::string QuoteJson(std::string_view text) {
-  std::string out = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') {
-      out += '\\';
-      out += c;
-    } else if (static_cast<unsigned char>(c) < 0x20 || c == '<' || c == '>' || c == '&') {
-      out += fmt::format("\\u{:04x}", static_cast<unsigned>(c));
-    } else {
-      out += c;
-    }
-  }
-  return out + '"';
-}
-
 std::string SymbolHtml(std::string_view text) {
   std::string out;
   SplitSymbols(

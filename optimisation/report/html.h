@@ -10,10 +10,6 @@ namespace kingpin::report {
 /// that HTML forbids become U+FFFD.
 std::string EscapeHtml(std::string_view text);
 
-/// Text for a JSON document inside a <script> element: quoted, with < > & as \u escapes, so that no
-/// text can close the element.
-std::string QuoteJson(std::string_view text);
-
 /// Text with its symbols set: `r_L` as r<sub>L</sub>, base in italics; escaped. A symbol is a word
 /// of one or two characters, an underscore and up to four letters or digits; anything longer (keys,
 /// paths) stays as it is.

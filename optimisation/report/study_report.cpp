@@ -1,7 +1,5 @@
 #include "optimisation/report/study_report.h"
 
-#include <ostream>
-
 #include "optimisation/report/sections.h"
 
 namespace kingpin::report {
@@ -37,10 +35,6 @@ std::string MakeStudyReport(const StudyReportData& data) {
   AddConventions(data, page);
   AddRecord(data, page);
   return page.MakeDocument(data.title.empty() ? "Kingpin report" : data.title);
-}
-
-void WriteStudyReport(const StudyReportData& data, std::ostream& out) {
-  out << MakeStudyReport(data);
 }
 
 }  // namespace kingpin::report

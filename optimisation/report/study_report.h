@@ -1,6 +1,5 @@
 #pragma once
 
-#include <iosfwd>
 #include <string>
 
 #include "optimisation/report/study_report_data.h"
@@ -15,8 +14,5 @@ namespace kingpin::report {
 /// Inconsistent data do not stop a report (a study took long to compute): a vector shorter than the
 /// one it is parallel to shows as missing values.
 std::string MakeStudyReport(const StudyReportData& data);
-
-/// Writes MakeStudyReport(data) to `out`. The caller opens the file and checks the stream.
-void WriteStudyReport(const StudyReportData& data, std::ostream& out);
 
 }  // namespace kingpin::report

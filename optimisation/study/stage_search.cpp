@@ -4,13 +4,13 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
-#include <random>
 
 #include <fmt/format.h>
 
 #include "optimisation/algorithms/evaluator.h"
 #include "optimisation/algorithms/minimise.h"
 #include "optimisation/algorithms/multipliers.h"
+#include "optimisation/algorithms/random.h"
 
 namespace kingpin::study {
 namespace {
@@ -35,15 +35,12 @@ double SecondsSince(std::chrono::steady_clock::time_point start) {
 
 /// Random points in the bounds of a space, monotone conditions aside (the search repairs those).
 std::vector<Point> MakeRandomStarts(const DesignSpace& space, int count, std::uint64_t seed) {
-  std::mt19937_64 engine(seed);
+  optimisation::Random random(seed);
   std::vector<Point> starts;
   for (int i = 0; i < count; ++i) {
     Point x;
     for (const DesignVariable& v : space.variables()) {
-      // 53 random bits: the same number on every platform, which std::uniform_real_distribution is
-      // not.
-      const double u = static_cast<double>(engine() >> 11) * 0x1p-53;
-      x.push_back(v.lower + u * (v.upper - v.lower));
+      x.push_back(v.lower + random.Uniform() * (v.upper - v.lower));
     }
     starts.push_back(std::move(x));
   }

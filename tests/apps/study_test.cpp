@@ -130,8 +130,10 @@ TEST_F(Program, ModesPrintsATableAndTheStateSpace) {
   const Outcome outcome = Run("modes " + root + "/examples/c_segment --json");
   ASSERT_EQ(outcome.status, 0) << outcome.errors;
   const nlohmann::json json = nlohmann::json::parse(outcome.output);
-  EXPECT_GE(json["modes"].size(), 5);
-  EXPECT_GE(json["state_space"]["A"].size(), 10);
+  EXPECT_GE(json["free"]["modes"].size(), 5);
+  EXPECT_GE(json["free"]["model"]["A"].size(), 10);
+  EXPECT_EQ(json["held"]["model"]["A"].size(), json["free"]["model"]["A"].size() - 2);
+  EXPECT_EQ(json["free"]["modes"][0]["shape"][0]["unit"], "m");
 }
 
 TEST_F(Program, UnusableInputEndsWithStatusTwoAndLeavesNothing) {

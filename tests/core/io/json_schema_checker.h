@@ -66,10 +66,14 @@ inline bool HasType(const Json& value, const std::string& type) {
   return false;
 }
 
-/// Empty when `value` fits the schema, otherwise the path and what does not fit.
+/// Empty when `value` fits the schema, otherwise the path and what does not fit. `root` holds what
+/// references point at; the schema itself if left out.
 inline std::string FindSchemaViolation(const Json& schema, const Json& value,
-                                       const std::string& path = "") {
+                                       const std::string& path = "", const Json* root = nullptr) {
+  if (root == nullptr) root = &schema;
   static const std::set<std::string> kKnown = {"$schema",
+                                               "$ref",
+                                               "$defs",
                                                "title",
                                                "description",
                                                "default",
@@ -94,6 +98,16 @@ inline std::string FindSchemaViolation(const Json& schema, const Json& value,
   for (const auto& [keyword, unused] : schema.items()) {
     if (!kKnown.contains(keyword)) return path + ": unknown keyword " + keyword;
   }
+  if (schema.contains("$ref")) {
+    const std::string prefix = "#/$defs/";
+    const auto name = schema["$ref"].get<std::string>();
+    if (!name.starts_with(prefix) || !(*root)["$defs"].contains(name.substr(prefix.size()))) {
+      return path + ": a reference to nothing: " + name;
+    }
+    const std::string reason =
+        FindSchemaViolation((*root)["$defs"][name.substr(prefix.size())], value, path, root);
+    if (!reason.empty()) return reason;
+  }
   if (schema.contains("type")) {
     const Json& type = schema["type"];
     bool fits = false;
@@ -112,7 +126,7 @@ inline std::string FindSchemaViolation(const Json& schema, const Json& value,
     bool fits = false;
     std::string reasons;
     for (const Json& one : schema["anyOf"]) {
-      const std::string reason = FindSchemaViolation(one, value, path);
+      const std::string reason = FindSchemaViolation(one, value, path, root);
       fits = fits || reason.empty();
       reasons += reason + "; ";
     }
@@ -137,8 +151,8 @@ inline std::string FindSchemaViolation(const Json& schema, const Json& value,
     if (schema.contains("minItems") && value.size() < schema["minItems"]) return path + ": short";
     if (schema.contains("maxItems") && value.size() > schema["maxItems"]) return path + ": long";
     for (std::size_t i = 0; schema.contains("items") && i < value.size(); ++i) {
-      const std::string reason =
-          FindSchemaViolation(schema["items"], value[i], path + "[" + std::to_string(i) + "]");
+      const std::string reason = FindSchemaViolation(schema["items"], value[i],
+                                                     path + "[" + std::to_string(i) + "]", root);
       if (!reason.empty()) return reason;
     }
   }
@@ -155,11 +169,11 @@ inline std::string FindSchemaViolation(const Json& schema, const Json& value,
       const std::string item_path = path + "/" + key;
       std::string reason;
       if (schema.contains("properties") && schema["properties"].contains(key)) {
-        reason = FindSchemaViolation(schema["properties"][key], item, item_path);
+        reason = FindSchemaViolation(schema["properties"][key], item, item_path, root);
       } else if (schema.contains("additionalProperties")) {
         const Json& more = schema["additionalProperties"];
         if (more.is_boolean() && !more.get<bool>()) return item_path + ": no such property";
-        if (more.is_object()) reason = FindSchemaViolation(more, item, item_path);
+        if (more.is_object()) reason = FindSchemaViolation(more, item, item_path, root);
       }
       if (!reason.empty()) return reason;
     }

@@ -26,6 +26,16 @@ TEST(JsonSchema, SaysWhichDraftItIs) {
   EXPECT_EQ(schema["properties"]["assistance"]["default"], "none");
 }
 
+// Each thing once: sections of the same schema, quantities with the same limits.
+TEST(JsonSchema, SharesWhatStandsInSeveralPlaces) {
+  const Json schema = GetSchema();
+  EXPECT_EQ(schema["properties"]["second_rack"]["$ref"], "#/$defs/section_rack");
+  EXPECT_EQ(schema["properties"]["rack"]["anyOf"][1]["$ref"], "#/$defs/section_rack");
+  EXPECT_EQ(schema["$defs"]["section_rack"]["properties"]["mass"]["$ref"],
+            "#/$defs/quantity_above_0");
+  EXPECT_EQ(schema["properties"]["share"]["$ref"], "#/$defs/quantity_from_0_to_1");
+}
+
 TEST(JsonSchema, AcceptsWhatTheReaderAccepts) {
   for (const char* yaml :
        {"kind: steering\nrack: {mass: 2}", "kind: steering\nrack: rack.yaml",

@@ -118,15 +118,6 @@ TEST(Schema, TheLastOverrideOfAPathWins) {
   EXPECT_EQ(ReadText(MakeSchema(), "kind: steering\n", "a.yaml", options).rack.mass, 2.0);
 }
 
-TEST(Schema, OverridesFromAFileKeepTheirPlace) {
-  const NodePointer study = ParseYaml("changes:\n  rack.mass: 3 kg\n", "study.yaml");
-  ReadOptions options;
-  options.overrides = MakeOverrides(*study->Find("changes"));
-  InputRecord record;
-  ReadText(MakeSchema(), "kind: steering\nrack: {mass: 1}\n", "a.yaml", options, &record);
-  EXPECT_EQ(FormatOrigin(record.Find("rack.mass")->origin), "study.yaml:2");
-}
-
 TEST(Schema, DeclarationsThatMakeNoSenseAreRefused) {
   struct Thing {
     double a = 0.0;

@@ -12,7 +12,8 @@
 namespace kingpin::io {
 namespace {
 
-// Two routes: the reader, and the exported JSON schema as an editor applies it.
+// Two routes: the reader, and the exported JSON schema as an editor applies it. The studies and
+// scenarios of examples/ are in tests/optimisation/study/shipped_examples_test.cpp.
 TEST(ShippedFiles, FitTheReaderAndTheExportedSchema) {
   InputKinds kinds;
   parameters::AddInputKinds(&kinds);

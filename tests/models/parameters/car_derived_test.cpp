@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/io/units.h"
 #include "models/parameters/car_mass.h"
 #include "models/parameters/front_geometry.h"
 #include "tests/models/parameters/c_segment.h"
@@ -34,7 +35,7 @@ TEST(CarMass, TotalsAreThoseOfTheDataSet) {
 TEST(CarMass, WheelLoadsCarryTheWeight) {
   const StaticLoads loads = CalcStaticLoads(CSegment());
   EXPECT_NEAR(2.0 * (loads.front_wheel + loads.rear_wheel),
-              CalcWholeCar(CSegment()).mass * kGravity, 1e-8);
+              CalcWholeCar(CSegment()).mass * io::kStandardGravity, 1e-8);
 }
 
 TEST(CarMass, CombiningDoesNotDependOnOrderOrPlace) {

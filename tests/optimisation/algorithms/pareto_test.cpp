@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -12,7 +13,6 @@
 #include "core/io/error.h"
 #include "core/parallel/parallel_batch.h"
 #include "optimisation/algorithms/nsga2.h"
-#include "optimisation/algorithms/weighted_sweep.h"
 #include "tests/optimisation/algorithms/test_problems.h"
 
 namespace kingpin::optimisation {
@@ -45,6 +45,19 @@ Problem MakeZdt(int which, std::size_t n) {
     }
   };
   return problem;
+}
+
+/// Area between a front of two objectives and `reference` (Zitzler and Thiele 1998): larger is
+/// better. Points that do not dominate the reference count nothing.
+double CalcHypervolume(const std::vector<FrontPoint>& front, std::span<const double> reference) {
+  double area = 0;
+  double height = reference[1];
+  for (const FrontPoint& point : FilterFront(front)) {
+    if (point.objectives[0] >= reference[0] || point.objectives[1] >= height) continue;
+    area += (reference[0] - point.objectives[0]) * (height - point.objectives[1]);
+    height = point.objectives[1];
+  }
+  return area;
 }
 
 const std::vector<double> kReference = {1.1, 1.1};
@@ -134,55 +147,8 @@ TEST(Nsga2, KeepsAGivenDesignThatIsOnTheFront) {
   EXPECT_TRUE(found);
 }
 
-TEST(WeightedSweep, ReachesConvexAndConcaveFronts) {
-  for (const int which : {1, 2, 3}) {
-    SweepOptions options;
-    options.weights = 24;
-    const Front front = RunWeightedSweep(MakeZdt(which, 6), options);
-    const double exact = CalcTrueHypervolume(which);
-    // Twenty-four points lose 1 / (2 * 24) of the unit square when evenly spread; they are not,
-    // the jumps of ZDT3 and the screening designs among them: twice that.
-    EXPECT_GT(CalcHypervolume(front.points, kReference), exact - 0.042)
-        << "ZDT" << which << ": " << front.status;
-    EXPECT_LE(CalcHypervolume(front.points, kReference), exact + 1e-3);
-  }
-}
-
-TEST(WeightedSweep, TheSumFindsTheConvexFrontWithExactGradients) {
-  // f1 = (x - 1)^2 + y^2, f2 = (x + 1)^2 + y^2: the front is y = 0, -1 <= x <= 1.
-  Problem problem = MakeTestProblem(2, -2, 2, 1.5, nullptr);
-  problem.objective_names = {"f1", "f2"};
-  const auto fill = [](std::span<const double> x, double* f, double* g) {
-    for (int k = 0; k < 2; ++k) {
-      const double centre = k == 0 ? 1 : -1;
-      f[k] = Square(x[0] - centre) + Square(x[1]);
-      if (g == nullptr) continue;
-      g[2 * k] = 2 * (x[0] - centre);
-      g[2 * k + 1] = 2 * x[1];
-    }
-  };
-  problem.objective = [fill](std::span<const double> points, std::span<double> values) {
-    for (std::size_t p = 0; 2 * p < points.size(); ++p) {
-      fill(points.subspan(2 * p, 2), &values[2 * p], nullptr);
-    }
-  };
-  problem.gradient = [fill](std::span<const double> points, std::span<double> values,
-                            std::span<double> gradients) {
-    for (std::size_t p = 0; 2 * p < points.size(); ++p) {
-      fill(points.subspan(2 * p, 2), &values[2 * p], &gradients[4 * p]);
-    }
-  };
-  SweepOptions options;
-  options.chebyshev = false;
-  options.weights = 9;
-  const Front front = RunWeightedSweep(problem, options);
-  int on_the_front = 0;
-  for (const FrontPoint& point : front.points) on_the_front += std::abs(point.x[1]) < 1e-5;
-  EXPECT_GE(on_the_front, 9);
-}
-
-TEST(ParetoSearches, AreTheSameForAnyNumberOfThreads) {
-  std::vector<Front> sweeps, populations;
+TEST(Nsga2, IsTheSameForAnyNumberOfThreads) {
+  std::vector<Front> populations;
   for (const int threads : {1, 2, 5}) {
     ParallelBatch pool(threads);
     Problem problem = MakeZdt(3, 5);
@@ -192,25 +158,20 @@ TEST(ParetoSearches, AreTheSameForAnyNumberOfThreads) {
         inner(points.subspan(5 * p, 5), values.subspan(2 * p, 2));
       });
     };
-    SweepOptions sweep;
-    sweep.weights = 6;
-    sweeps.push_back(RunWeightedSweep(problem, sweep));
     Nsga2Options nsga2;
     nsga2.generations = 20;
     populations.push_back(RunNsga2(problem, nsga2));
   }
-  for (const std::vector<Front>& fronts : {sweeps, populations}) {
-    for (const Front& front : fronts) {
-      ASSERT_EQ(front.points.size(), fronts[0].points.size());
-      for (std::size_t k = 0; k < front.points.size(); ++k) {
-        EXPECT_EQ(front.points[k].x, fronts[0].points[k].x);
-        EXPECT_EQ(front.points[k].objectives, fronts[0].points[k].objectives);
-      }
+  for (const Front& front : populations) {
+    ASSERT_EQ(front.points.size(), populations[0].points.size());
+    for (std::size_t k = 0; k < front.points.size(); ++k) {
+      EXPECT_EQ(front.points[k].x, populations[0].points[k].x);
+      EXPECT_EQ(front.points[k].objectives, populations[0].points[k].objectives);
     }
   }
 }
 
-TEST(ParetoSearches, KeepTheFrontSoFarWhenCancelled) {
+TEST(Nsga2, KeepsTheFrontSoFarWhenCancelled) {
   int batches = 0;
   Control control;
   control.cancelled = [&] { return ++batches > 6; };
@@ -218,18 +179,12 @@ TEST(ParetoSearches, KeepTheFrontSoFarWhenCancelled) {
   EXPECT_TRUE(population.cancelled);
   EXPECT_FALSE(population.points.empty());
   EXPECT_EQ(population.evaluations, 6 * 64);
-  batches = 0;
-  const Front sweep = RunWeightedSweep(MakeZdt(1, 5), {}, control);
-  EXPECT_TRUE(sweep.cancelled);
-  EXPECT_FALSE(sweep.points.empty());
 }
 
-TEST(ParetoSearches, RefuseWhatTheyCannotTreat) {
+TEST(Nsga2, RefusesWhatItCannotTreat) {
   Problem problem = MakeZdt(1, 4);
   problem.variables[2].lower = 2;
   EXPECT_THROW(RunNsga2(problem), io::InputError);
-  EXPECT_THROW(RunWeightedSweep(problem), io::InputError);
-  EXPECT_THROW(RunWeightedSweep(MakeCorner()), io::InputError);
   EXPECT_THROW(RunNsga2(MakeHock71()), io::InputError);
 }
 

@@ -12,10 +12,6 @@ TEST(Html, EveryCharacterWithAMeaningIsEscaped) {
   EXPECT_EQ(EscapeHtml("Γ ≤ 3 N·m"), "Γ ≤ 3 N·m");
 }
 
-TEST(Html, JsonInAScriptCannotCloseTheScript) {
-  EXPECT_EQ(QuoteJson("</script>\"\\\n"), "\"\\u003c/script\\u003e\\\"\\\\\\u000a\"");
-}
-
 TEST(Html, SymbolsGetSubscripts) {
   EXPECT_EQ(SymbolHtml("r_L"), "<i>r</i><sub>L</sub>");
   EXPECT_EQ(SymbolHtml("Γ_1"), "<i>Γ</i><sub>1</sub>");

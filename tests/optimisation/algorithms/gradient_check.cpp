@@ -1,4 +1,4 @@
-#include "optimisation/algorithms/gradient_check.h"
+#include "tests/optimisation/algorithms/gradient_check.h"
 
 #include <algorithm>
 #include <array>
