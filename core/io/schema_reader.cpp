@@ -6,41 +6,17 @@
 
 #include <fmt/format.h>
 
-#include "core/io/csv.h"
 #include "core/io/error.h"
+#include "core/io/field_text.h"
 #include "core/io/nearest_name.h"
 #include "core/io/schema_core.h"
+#include "core/io/table_reader.h"
+#include "core/io/value_reader.h"
 
 namespace kingpin::io {
 namespace {
 
-constexpr std::size_t kMostProblems = 50;
 constexpr const char* kCertainties[] = {"P", "S", "D", "K", "E"};
-
-std::string Join(const std::vector<std::string>& names) {
-  std::string text;
-  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
-  return text;
-}
-
-std::vector<std::string> NamesOf(const std::vector<FieldSpec::Option>& options) {
-  std::vector<std::string> names;
-  names.reserve(options.size());
-  for (const FieldSpec::Option& option : options) names.push_back(option.name);
-  return names;
-}
-
-struct Noun {
-  const char* singular;
-  const char* plural;
-};
-constexpr Noun kEntries = {"entry", "entries"};
-constexpr Noun kNumbers = {"number", "numbers"};
-constexpr Noun kRows = {"row", "rows"};
-
-std::string Count(std::size_t count, const Noun& noun) {
-  return fmt::format("{} {}", count, count == 1 ? noun.singular : noun.plural);
-}
 
 // What a mapping says about all values below it.
 struct Provenance {
@@ -49,10 +25,7 @@ struct Provenance {
   std::string note;
 };
 
-// Thrown inside the reader to leave one field; what was wrong is noted already.
-struct FieldIsWrong {};
-
-class Reader {
+class Reader : private ValueReader {
  public:
   Reader(const ReadOptions& options, InputRecord* record)
       : options_(options), used_(options.overrides.size(), false), record_(record) {}
@@ -78,11 +51,6 @@ class Reader {
   }
 
  private:
-  struct Place {
-    std::string file;
-    int line = 0;
-  };
-
   // A value and what was said about it.
   struct Written {
     const Node* value = nullptr;
@@ -109,7 +77,7 @@ class Reader {
           problem.file = place.file;
           problem.line = place.line;
         }
-        if (reader_->problems_.size() < kMostProblems) reader_->problems_.push_back(problem);
+        reader_->Note(std::move(problem));
       }
     }
 
@@ -131,39 +99,6 @@ class Reader {
     }
     const auto root = places_.find("");
     return root == places_.end() ? Place{} : root->second;
-  }
-
-  void Note(const Place& place, const std::string& path, std::string found, std::string expected,
-            std::string suggestion = {}) {
-    if (problems_.size() >= kMostProblems) return;
-    problems_.push_back(InputProblem{.file = place.file,
-                                     .line = place.line,
-                                     .key = path,
-                                     .found = std::move(found),
-                                     .expected = std::move(expected),
-                                     .suggestion = std::move(suggestion)});
-  }
-  void Note(const Node& node, const std::string& path, std::string found, std::string expected,
-            std::string suggestion = {}) {
-    Note(Place{node.file_name(), node.line}, path, std::move(found), std::move(expected),
-         std::move(suggestion));
-  }
-  [[noreturn]] void Fail(const Node& node, const std::string& path, std::string found,
-                         std::string expected, std::string suggestion = {}) {
-    Note(node, path, std::move(found), std::move(expected), std::move(suggestion));
-    throw FieldIsWrong{};
-  }
-  // An error from elsewhere gets the place and the path it lacks.
-  [[noreturn]] void Fail(const Node& node, const std::string& path, const InputError& error) {
-    for (InputProblem problem : error.problems()) {
-      if (problem.file.empty()) {
-        problem.file = node.file_name();
-        problem.line = node.line;
-      }
-      if (problem.key.empty()) problem.key = path;
-      if (problems_.size() < kMostProblems) problems_.push_back(std::move(problem));
-    }
-    throw FieldIsWrong{};
   }
 
   const Node* FindOverride(const std::string& path) {
@@ -200,10 +135,6 @@ class Reader {
            "knowledge) or E (engineering estimate)");
     }
     return node->text;
-  }
-
-  static std::string Below(const std::string& path, std::string_view key) {
-    return path.empty() ? std::string(key) : fmt::format("{}.{}", path, key);
   }
 
   Provenance ReadProvenance(const Node& mapping, const std::string& path,
@@ -455,22 +386,6 @@ class Reader {
     return written;
   }
 
-  Unit ReadUnit(const Node& node, const std::string& path, const Unit& expected) {
-    if (!node.is_scalar()) Fail(node, path, DescribeNode(node), "a unit");
-    Unit unit;
-    try {
-      unit = ParseUnit(node.text);
-    } catch (const InputError& error) {
-      Fail(node, path, error);
-    }
-    if (!IsUsableAs(unit.dimension, expected.dimension)) {
-      Fail(node, path, DescribeNode(node), "a unit for " + DescribeQuantity(expected));
-    }
-    // A bare number in a unit without radians still means the dimension that is expected.
-    unit.dimension = expected.dimension;
-    return unit;
-  }
-
   FieldValue ReadValue(const FieldSpec& field, const Written& written, const std::string& path,
                        ValueRecord* record) {
     FieldValue value;
@@ -532,7 +447,7 @@ class Reader {
         record->value = FormatNumbers(value.numbers);
         break;
       case FieldKind::kTable:
-        ReadTable(field, node, path, &value);
+        ReadTable(field, node, path, *this, &value, &record_->files);
         FillTableRecord(field, value, record);
         break;
       case FieldKind::kRaw:
@@ -545,54 +460,6 @@ class Reader {
         break;  // read elsewhere
     }
     return value;
-  }
-
-  double ReadQuantity(const Node& node, const Unit& unit, const std::string& path,
-                      const std::string& expected) {
-    if (!node.is_scalar()) Fail(node, path, DescribeNode(node), expected);
-    try {
-      return ParseQuantity(node.text, unit);
-    } catch (const InputError& error) {
-      Fail(node, path, error);
-    }
-  }
-
-  double ReadInteger(const FieldSpec& field, const Node& node, const std::string& path) {
-    if (!node.is_scalar()) Fail(node, path, DescribeNode(node), Describe(field));
-    double number = 0.0;
-    try {
-      number = ParseNumber(node.text);
-    } catch (const InputError&) {
-      Fail(node, path, DescribeNode(node), Describe(field));
-    }
-    if (number != std::floor(number)) Fail(node, path, DescribeNode(node), Describe(field));
-    return number;
-  }
-
-  bool ReadBoolean(const FieldSpec& field, const Node& node, const std::string& path) {
-    if (node.is_scalar()) {
-      for (const char* yes : {"true", "yes", "on", "True", "Yes", "On"}) {
-        if (node.text == yes) return true;
-      }
-      for (const char* no : {"false", "no", "off", "False", "No", "Off"}) {
-        if (node.text == no) return false;
-      }
-    }
-    Fail(node, path, DescribeNode(node), Describe(field));
-  }
-
-  std::string ReadText(const FieldSpec& field, const Node& node, const std::string& path) {
-    if (!node.is_scalar() || node.text.empty()) {
-      Fail(node, path, DescribeNode(node),
-           field.kind == FieldKind::kTexts && field.options.empty() ? "a text" : Describe(field));
-    }
-    const std::vector<std::string> names = NamesOf(field.options);
-    if (!names.empty() && std::find(names.begin(), names.end(), node.text) == names.end()) {
-      const std::string nearest = FindNearestName(node.text, names);
-      Fail(node, path, DescribeNode(node), "one of " + Join(names),
-           nearest.empty() ? "" : fmt::format("did you mean '{}'?", nearest));
-    }
-    return node.text;
   }
 
   void ReadQuantities(const FieldSpec& field, const Written& written, const std::string& path,
@@ -613,244 +480,9 @@ class Reader {
     }
   }
 
-  void ReadTable(const FieldSpec& field, const Node& node, const std::string& path,
-                 FieldValue* value) {
-    value->columns.assign(field.columns.size(), {});
-    const Node* rows = &node;
-    std::vector<Unit> units = field.column_units;
-    if (node.is_mapping()) {
-      if (const Node* file = node.Find("file"); file != nullptr) {
-        if (const Node* extra = node.Find("units"); extra != nullptr) {
-          Fail(*extra, Below(path, "units"), "units beside a file", "the units in the file itself");
-        }
-        ReadTableFile(field, *file, Below(path, "file"), value);
-        return;
-      }
-      rows = node.Find("rows");
-      if (const Node* given = node.Find("units"); given != nullptr) {
-        if (!given->is_sequence() || given->items.size() != units.size()) {
-          Fail(*given, Below(path, "units"), DescribeNode(*given),
-               fmt::format("a list of {} units", units.size()));
-        }
-        for (std::size_t j = 0; j < units.size(); ++j) {
-          units[j] = ReadUnit(*given->items[j], fmt::format("{}.units[{}]", path, j), units[j]);
-        }
-      }
-    }
-    if (!rows->is_sequence()) Fail(*rows, path, DescribeNode(*rows), Describe(field));
-    CheckCount(field, *rows, rows->items.size(), path, kRows);
-    for (std::size_t i = 0; i < rows->items.size(); ++i) {
-      const Node& row = *rows->items[i];
-      const std::string row_path = fmt::format("{}[{}]", path, i);
-      if (!row.is_sequence() || row.items.size() != units.size()) {
-        Fail(row, row_path,
-             row.is_sequence() ? fmt::format("a row of {}", row.items.size()) : DescribeNode(row),
-             fmt::format("a row of {}: {}", units.size(), DescribeColumns(field)));
-      }
-      std::vector<double> cells;
-      for (std::size_t j = 0; j < units.size(); ++j) {
-        cells.push_back(ReadQuantity(*row.items[j], units[j], fmt::format("{}[{}]", row_path, j),
-                                     DescribeQuantity(field.column_units[j])));
-      }
-      CheckRow(field, cells, *value, Place{row.file_name(), row.line}, row_path);
-      for (std::size_t j = 0; j < units.size(); ++j) value->columns[j].push_back(cells[j]);
-    }
-  }
-
-  void ReadTableFile(const FieldSpec& field, const Node& node, const std::string& path,
-                     FieldValue* value) {
-    if (!node.is_scalar() || node.text.empty()) {
-      Fail(node, path, DescribeNode(node), "the name of a CSV file");
-    }
-    const std::filesystem::path file = Resolve(node);
-    try {
-      const CsvTable table = ReadCsv(file);
-      record_->files.push_back(file);
-      std::vector<const CsvColumn*> columns;
-      for (std::size_t j = 0; j < field.columns.size(); ++j) {
-        const CsvColumn* column = table.Find(field.columns[j].name);
-        // Names may differ, but then the file must have these columns and no other.
-        if (column == nullptr && table.columns.size() == field.columns.size()) {
-          column = &table.columns[j];
-        }
-        if (column == nullptr) {
-          Fail(node, path,
-               fmt::format("'{}' without a column '{}'", file.string(), field.columns[j].name),
-               DescribeColumns(field));
-        }
-        columns.push_back(column);
-      }
-      for (std::size_t i = 0; i < table.lines.size(); ++i) {
-        std::vector<double> cells;
-        for (std::size_t j = 0; j < columns.size(); ++j) {
-          Unit unit = field.column_units[j];
-          if (table.has_units) {
-            unit = ParseUnit(columns[j]->unit);
-            if (!IsUsableAs(unit.dimension, field.column_units[j].dimension)) {
-              throw InputError(InputProblem{.file = file.string(),
-                                            .line = 2,
-                                            .key = columns[j]->name,
-                                            .found = fmt::format("unit '{}'", columns[j]->unit),
-                                            .expected = DescribeQuantity(field.column_units[j])});
-            }
-          }
-          cells.push_back(unit.ToSi(columns[j]->values[i]));
-        }
-        CheckRow(field, cells, *value, Place{file.string(), table.lines[i]}, path);
-        for (std::size_t j = 0; j < columns.size(); ++j) value->columns[j].push_back(cells[j]);
-      }
-    } catch (const InputError& error) {
-      if (error.problem().line > 0) Fail(node, path, error);
-      Fail(node, path, fmt::format("'{}': {}", file.string(), error.problem().found),
-           error.problem().expected, error.problem().suggestion);
-    }
-    CheckCount(field, node, value->columns[0].size(), path, kRows);
-  }
-
-  void CheckRow(const FieldSpec& field, const std::vector<double>& cells, const FieldValue& value,
-                const Place& place, const std::string& path) {
-    if (value.columns[0].empty()) return;
-    const auto fail = [&](std::size_t j, const char* expected) {
-      Note(place, path,
-           fmt::format("{} {} after {}", field.columns[j].name,
-                       FormatQuantity(cells[j], field.columns[j].unit),
-                       FormatQuantity(value.columns[j].back(), field.columns[j].unit)),
-           expected);
-      throw FieldIsWrong{};
-    };
-    if (field.increasing && !(cells[0] > value.columns[0].back())) {
-      fail(0, "a first column that increases from row to row");
-    }
-    for (std::size_t j = 1; field.monotone && j < cells.size(); ++j) {
-      if (cells[j] < value.columns[j].back()) fail(j, "a curve that never falls");
-    }
-  }
-
-  void CheckCount(const FieldSpec& field, const Node& node, std::size_t count,
-                  const std::string& path, const Noun& what) {
-    if (count >= field.min_count && count <= field.max_count) return;
-    std::string expected;
-    if (field.min_count == field.max_count) {
-      expected = Count(field.min_count, what);
-    } else if (count < field.min_count) {
-      expected = "at least " + Count(field.min_count, what);
-    } else {
-      expected = "at most " + Count(field.max_count, what);
-    }
-    Fail(node, path, Count(count, what), expected);
-  }
-
-  void CheckRange(const FieldSpec& field, const Node& node, double value, const Unit& unit,
-                  const std::string& path) {
-    const bool low = field.min && (field.min_is_open ? !(value > *field.min) : value < *field.min);
-    const bool high = field.max && (field.max_is_open ? !(value < *field.max) : value > *field.max);
-    if (!low && !high) return;
-    std::string found = DescribeNode(node);
-    const std::string si = FormatQuantity(value, unit.text);
-    if (found != fmt::format("'{}'", si) && found != fmt::format("'{}'", FormatNumber(value))) {
-      found += fmt::format(" ({})", si);
-    }
-    Fail(node, path, found, DescribeRange(field));
-  }
-
-  static std::string DescribeRange(const FieldSpec& field) {
-    std::string text;
-    if (field.min) {
-      text += fmt::format("{} {}", field.min_is_open ? "more than" : "at least",
-                          FormatQuantity(*field.min, field.unit.text));
-    }
-    if (field.max) {
-      text += fmt::format("{}{} {}", text.empty() ? "" : " and ",
-                          field.max_is_open ? "less than" : "at most",
-                          FormatQuantity(*field.max, field.unit.text));
-    }
-    return text;
-  }
-
-  static std::string DescribeColumns(const FieldSpec& field) {
-    std::string text;
-    for (const ColumnSpec& column : field.columns) {
-      text += fmt::format("{}{} [{}]", text.empty() ? "" : ", ", column.name, column.unit);
-    }
-    return text;
-  }
-
-  static std::string Describe(const FieldSpec& field) {
-    switch (field.kind) {
-      case FieldKind::kQuantity:
-        return DescribeQuantity(field.unit);
-      case FieldKind::kInteger:
-        return "a whole number";
-      case FieldKind::kBoolean:
-        return "true or false";
-      case FieldKind::kText:
-        return field.options.empty() ? "a text" : "one of " + Join(NamesOf(field.options));
-      case FieldKind::kTexts:
-        return field.options.empty() ? "a list of texts"
-                                     : "a list from " + Join(NamesOf(field.options));
-      case FieldKind::kChoice:
-        return "one of " + Join(NamesOf(field.options));
-      case FieldKind::kFile:
-        return "the name of a file";
-      case FieldKind::kQuantities:
-        if (field.min_count == field.max_count) {
-          return fmt::format("a list of {} numbers in {}", field.min_count, UnitName(field));
-        }
-        return fmt::format("a list of numbers in {}", UnitName(field));
-      case FieldKind::kTable:
-        return "a list of rows of " + DescribeColumns(field);
-      case FieldKind::kSection:
-        return field.may_be_file
-                   ? fmt::format("a mapping or the name of a file: {}", field.description)
-                   : fmt::format("a mapping: {}", field.description);
-      case FieldKind::kList:
-        return fmt::format("a list of mappings: {}", field.description);
-      case FieldKind::kMap:
-        return fmt::format("a mapping of names: {}", field.description);
-      case FieldKind::kRaw:
-        return field.description;
-    }
-    return {};
-  }
-
-  static std::string UnitName(const FieldSpec& field) {
-    return field.unit.text.empty() ? "1" : field.unit.text;
-  }
-
-  static std::string FormatNumbers(const std::vector<double>& numbers) {
-    std::string text = "[";
-    for (const double number : numbers) {
-      text += (text.size() == 1 ? "" : ", ") + FormatNumber(number);
-    }
-    return text + "]";
-  }
-
-  static void FillTableRecord(const FieldSpec& field, const FieldValue& value,
-                              ValueRecord* record) {
-    record->value = "[";
-    for (std::size_t i = 0; i < value.columns[0].size(); ++i) {
-      std::vector<double> row;
-      for (const std::vector<double>& column : value.columns) row.push_back(column[i]);
-      record->value += (i == 0 ? "" : ", ") + FormatNumbers(row);
-      record->numbers.insert(record->numbers.end(), row.begin(), row.end());
-    }
-    record->value += "]";
-    record->unit.clear();
-    for (const ColumnSpec& column : field.columns) {
-      record->unit += (record->unit.empty() ? "" : ", ") + column.unit;
-    }
-  }
-
-  static std::filesystem::path Resolve(const Node& node) {
-    std::filesystem::path file(node.text);
-    if (file.is_absolute() || node.file_name() == "command line") return file;
-    return (std::filesystem::path(node.file_name()).parent_path() / file).lexically_normal();
-  }
-
   const ReadOptions& options_;
   std::vector<bool> used_;
   InputRecord* record_;
-  std::vector<InputProblem> problems_;
   std::vector<std::string> known_paths_;
   std::map<std::string, Place> places_;
   std::vector<NodePointer> files_;
