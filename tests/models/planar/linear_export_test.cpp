@@ -48,7 +48,7 @@ TEST(LinearExport, AnalysisHoldsFreeAndHeldWheel) {
   ASSERT_EQ(response["responses"].size(), 2u * 6u);
   EXPECT_EQ(response["responses"][0]["input"], "road.force");
   EXPECT_EQ(response["responses"][0]["output"], "tie_rod.force");
-  EXPECT_EQ(response["responses"][0]["unit"], "N/N");
+  EXPECT_EQ(response["responses"][0]["unit"], "(N)/(N)");
   EXPECT_EQ(response["frequency"]["values"].size(), analysis.free_response.frequency.size());
   EXPECT_EQ(response["responses"][0]["magnitude"][7].get<double>(),
             std::abs(analysis.free_response.value[0][0][7]));
