@@ -13,6 +13,7 @@ namespace kingpin::study {
 namespace {
 
 // Two routes: the reader with all its checks, and the exported JSON schema as an editor applies it.
+// Mechanisms are no kind of input that a study's folder knows.
 TEST(ShippedExamples, FitTheReaderAndTheExportedSchema) {
   io::InputKinds kinds;
   parameters::AddInputKinds(&kinds);
@@ -21,6 +22,7 @@ TEST(ShippedExamples, FitTheReaderAndTheExportedSchema) {
   const std::filesystem::path root = std::filesystem::path(KINGPIN_SOURCE_DIR) / "examples";
   for (const auto& entry : std::filesystem::recursive_directory_iterator(root)) {
     if (entry.path().extension() != ".yaml") continue;
+    if (entry.path().parent_path().filename() == "mechanisms") continue;
     ++count;
     const io::InputKind& kind = kinds.Detect(entry.path());
     EXPECT_FALSE(kind.read(entry.path(), {}).values.empty()) << entry.path();
