@@ -5,23 +5,34 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/common_options.h"
+#include "apps/input_kinds.h"
 #include "apps/run_support.h"
 #include "core/io/json_text.h"
+#include "joints/mechanism_run.h"
 #include "optimisation/study/scenario_modes.h"
 #include "optimisation/study/study_schema.h"
 
 namespace kingpin::apps {
 namespace {
 
-void RunModesVerb(const std::string& file, bool held, const CommonOptions& options) {
-  const study::Scenario scenario = study::ReadScenario(file, MakeReadOptions(options));
-  const study::ModesResult result = study::CalcScenarioModes(scenario, held);
+template <class Result>
+void Print(const Result& result, const CommonOptions& options) {
   const std::string json = io::FormatJson(result.json);
   if (!options.output.empty()) io::WriteFileAtomically(options.output, json);
   if (options.json) {
     io::WriteStandardOutput(json);
   } else if (!options.quiet) {
     io::WriteStandardOutput(result.text);
+  }
+}
+
+void RunModesVerb(const std::string& file, bool held, const CommonOptions& options) {
+  if (IsMechanismFile(file)) {
+    Print(joints::CalcMechanismModes(joints::ReadMechanismFile(file, MakeReadOptions(options))),
+          options);
+  } else {
+    Print(study::CalcScenarioModes(study::ReadScenario(file, MakeReadOptions(options)), held),
+          options);
   }
 }
 
@@ -32,7 +43,8 @@ void AddVerbModes(CLI::App& app, CommonOptions& options) {
       "modes", "Eigenvalues, mode shapes, A B C D and frequency responses; -o writes JSON");
   const auto file = std::make_shared<std::string>();
   const auto held = std::make_shared<bool>(false);
-  verb->add_option("FILE", *file, "A scenario file, or a folder with scenario.yaml")->required();
+  verb->add_option("FILE", *file, "A scenario or mechanism file, or a folder with scenario.yaml")
+      ->required();
   verb->add_flag("--held", *held, "The table with the steering wheel held; JSON has free and held");
   AddOutputOption(*verb, options, "File for everything as JSON");
   AddSetOption(*verb, options);

@@ -5,20 +5,26 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/common_options.h"
+#include "apps/input_kinds.h"
 #include "apps/run_support.h"
 #include "core/io/json_text.h"
+#include "joints/mechanism_run.h"
 #include "optimisation/study/run_scenario.h"
 #include "optimisation/study/study_schema.h"
 
 namespace kingpin::apps {
 namespace {
 
-void RunSimulateVerb(const std::string& file, const CommonOptions& options) {
+// Reads with `read`, runs with `run` and writes what came out: scenarios of the planar model and
+// mechanisms alike.
+template <class Read, class Run>
+void RunAndWrite(const std::string& file, const CommonOptions& options, const Read& read,
+                 const Run& run) {
   io::InputRecord record;
-  const study::Scenario scenario = study::ReadScenario(file, MakeReadOptions(options), &record);
+  const auto input = read(file, MakeReadOptions(options), &record);
   io::RunManifest manifest = MakeManifest(options, record);
   io::ResultDirectory results(ResultPath("simulate", options, file), "simulate");
-  const study::ScenarioResult result = study::RunScenario(scenario);
+  const auto result = run(input);
   results.WriteText("signals.csv", io::FormatSignals(result.signals));
   results.WriteJson("summary.json", result.summary);
   manifest.solver = result.statistics;
@@ -33,13 +39,22 @@ void RunSimulateVerb(const std::string& file, const CommonOptions& options) {
   }
 }
 
+void RunSimulateVerb(const std::string& file, const CommonOptions& options) {
+  if (IsMechanismFile(file)) {
+    RunAndWrite(file, options, joints::ReadMechanismFile, joints::RunMechanism);
+  } else {
+    RunAndWrite(file, options, study::ReadScenario, study::RunScenario);
+  }
+}
+
 }  // namespace
 
 void AddVerbSimulate(CLI::App& app, CommonOptions& options) {
-  CLI::App* verb =
-      app.add_subcommand("simulate", "One scenario: signals.csv, summary.json, manifest.json");
+  CLI::App* verb = app.add_subcommand(
+      "simulate", "One scenario or mechanism: signals.csv, summary.json, manifest.json");
   const auto file = std::make_shared<std::string>();
-  verb->add_option("FILE", *file, "A scenario file, or a folder with scenario.yaml")->required();
+  verb->add_option("FILE", *file, "A scenario or mechanism file, or a folder with scenario.yaml")
+      ->required();
   AddOutputOption(*verb, options, "Result folder (default: results/<name>_simulate)");
   AddSetOption(*verb, options);
   AddPrintOptions(*verb, options);

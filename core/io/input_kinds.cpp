@@ -15,7 +15,7 @@ std::vector<std::string> InputKinds::MakeNames() const {
   return names;
 }
 
-void InputKinds::AddKind(InputKind kind) {
+void InputKinds::Add(InputKind kind) {
   for (const InputKind& known : kinds_) {
     if (known.name == kind.name) {
       throw std::logic_error(fmt::format("two kinds of input are called '{}'", kind.name));

@@ -30,16 +30,19 @@ class InputKinds {
   template <class T>
   void Add(const Schema<T>& schema, std::function<void(const T&)> check = {},
            std::function<DerivedValues(const T&)> derive = {}) {
-    AddKind(InputKind{schema.name(), schema.core(),
-                      [schema, check = std::move(check), derive = std::move(derive)](
-                          const std::filesystem::path& path, const ReadOptions& options) {
-                        InputRecord record;
-                        const T object = ReadFile(schema, path, options, &record);
-                        if (check) check(object);
-                        if (derive) record.derived = derive(object);
-                        return record;
-                      }});
+    Add(InputKind{schema.name(), schema.core(),
+                  [schema, check = std::move(check), derive = std::move(derive)](
+                      const std::filesystem::path& path, const ReadOptions& options) {
+                    InputRecord record;
+                    const T object = ReadFile(schema, path, options, &record);
+                    if (check) check(object);
+                    if (derive) record.derived = derive(object);
+                    return record;
+                  }});
   }
+
+  /// A kind that is read in a way of its own.
+  void Add(InputKind kind);
 
   const std::vector<InputKind>& kinds() const { return kinds_; }
 
@@ -50,7 +53,6 @@ class InputKinds {
   const InputKind& Detect(const std::filesystem::path& path) const;
 
  private:
-  void AddKind(InputKind kind);
   std::vector<std::string> MakeNames() const;
 
   std::vector<InputKind> kinds_;

@@ -165,6 +165,16 @@ void Evaluator::ReleaseFriction() {
   friction_released_ = true;
 }
 
+// A friction element that sticks although its row depends on constraints that always act; -1: none.
+int Evaluator::FindForcedRow() const {
+  for (size_t f = 0; f < modes_.size(); ++f) {
+    if (modes_[f] == 0 && system_.model.redundant[system_.friction[f].row]) {
+      return static_cast<int>(f);
+    }
+  }
+  return -1;
+}
+
 bool Evaluator::UpdateModes(double time, std::span<const double> y, double still) {
   const int count = static_cast<int>(modes_.size());
   if (count == 0) return false;
@@ -178,8 +188,23 @@ bool Evaluator::UpdateModes(double time, std::span<const double> y, double still
   // Release the element that is most beyond its limit, one at a time: its neighbours may hold once
   // it has given way.
   std::vector<double> rate(system_.size());
-  for (int released = 0; released < count; ++released) {
-    CalcRates(time, y, rate);
+  for (int released = 0; released <= count; ++released) {
+    try {
+      CalcRates(time, y, rate);
+    } catch (const std::runtime_error&) {
+      // A row that other constraints move cannot stick: at a turning point it slides on, the way
+      // it is accelerated.
+      const int f = FindForcedRow();
+      if (f < 0) throw;
+      SetMode(f, 1);
+      CalcRates(time, y, rate);
+      double acceleration = -drive_acceleration_[system_.friction[f].row];
+      for (const LinearRow::Term& term : GetRow(system_.friction[f]).terms) {
+        acceleration += term.factor * acceleration_[term.v];
+      }
+      SetMode(f, acceleration < 0 ? -1 : 1);
+      continue;
+    }
     int worst = -1;
     double largest = 1;
     for (int f = 0; f < count; ++f) {

@@ -77,6 +77,7 @@ class Evaluator {
   double CalcKineticLimit(const Friction& friction, double normal, double slip) const;
   const LinearRow& GetRow(const Friction& friction) const;
   void SetMode(int f, int mode);
+  int FindForcedRow() const;
   void UpdateKinematics(double time, std::span<const double> y);
   void UpdateDrives(double time);
   double CalcPositionResiduals(const double* q);  // into residual_

@@ -1,0 +1,96 @@
+#include "joints/mechanism_file.h"
+
+#include <filesystem>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/io/error.h"
+#include "joints/mechanism_run.h"
+
+namespace kingpin::joints {
+namespace {
+
+using testing::HasSubstr;
+
+const std::string kPendulum = R"(kind: mechanism
+name: pendulum
+gravity: [0, 0, -9.81]
+bodies:
+  rod: {mass: 3 kg, centre: [500 mm, 0 mm, 0 mm], inertia: [0, 0.25, 0.25]}
+joints:
+  hinge: {type: revolute, child: rod, axis: [0, 1, 0], angle: 80 deg}
+simulation: {method: explicit8, duration: 1 s, sample_interval: 10 ms}
+)";
+
+TEST(MechanismFile, AFileIsWhatTheBuilderWouldMake) {
+  const MechanismFile file = ReadMechanismText(kPendulum, "pendulum.yaml");
+  const Mechanism mechanism = MakeMechanism(file);
+  ASSERT_EQ(mechanism.system.model.velocities, 1);
+  EXPECT_DOUBLE_EQ(mechanism.system.model.links[1].mass, 3);
+  EXPECT_NEAR(mechanism.start[0], 80 * M_PI / 180, 1e-15);
+  const MechanismRun run = RunMechanism(file);
+  EXPECT_EQ(run.signals.time.size(), 101);
+  EXPECT_EQ(run.signals.channels[0].name, "hinge");
+  EXPECT_EQ(run.summary["degrees_of_freedom"], 1);
+  EXPECT_LT(run.summary["energy"]["largest_error"].get<double>(), 1e-6);
+  const MechanismModes modes = CalcMechanismModes(file);
+  EXPECT_EQ(modes.json["modes"].size(), 1);
+}
+
+struct Mistake {
+  const char *text, *with, *message;
+};
+
+TEST(MechanismFile, MistakesAreNamedWithFileLineAndKey) {
+  const Mistake mistakes[] = {
+      {"mass: 3 kg", "mass: -3 kg", "pendulum.yaml:5: bodies.rod.mass"},
+      {"mass: 3 kg", "mass: 3 m", "pendulum.yaml:5: bodies.rod.mass"},
+      {"mass: 3 kg", "mass: .nan", "pendulum.yaml:5"},
+      {"mass: 3 kg", "maas: 3 kg", "did you mean 'mass'"},
+      {"[0, 0.25, 0.25]", "[0, 0.25, 0.75]", "none larger than the sum of the other two"},
+      {"[0, 0.25, 0.25]", "[0, 0.25, 0.75]", "pendulum.yaml:5: bodies.rod.inertia"},
+      {"axis: [0, 1, 0]", "axis: [0, 1, 1]",
+       "pendulum.yaml:7: joints.hinge.axis: found (0, 1, 1) of length 1.41421"},
+      {"child: rod", "child: rood", "did you mean 'rod'"},
+      {"type: revolute", "type: hinge", "pendulum.yaml:7: joints.hinge.type"},
+      {"angle: 80 deg", "displacement: 1 m", "pendulum.yaml:7: joints.hinge.displacement"},
+      {"joints:\n  hinge: {", "joints:\n  again: {type: free, child: rod}\n  hinge: {",
+       "which joint '"},
+      {"joints:\n  hinge: {type: revolute,", "joints:\n  hinge: {type: revolute, parent: rod,",
+       "a cycle of joints"},
+  };
+  for (const Mistake& m : mistakes) {
+    std::string text = kPendulum;
+    const size_t at = text.find(m.text);
+    ASSERT_NE(at, std::string::npos) << m.text;
+    text.replace(at, std::string(m.text).size(), m.with);
+    try {
+      MakeMechanism(ReadMechanismText(text, "pendulum.yaml"));
+      ADD_FAILURE() << "accepted: " << m.with;
+    } catch (const io::InputError& error) {
+      EXPECT_THAT(error.what(), HasSubstr(m.message)) << m.with;
+    }
+  }
+}
+
+TEST(MechanismFile, TheExamplesRunAndKeepTheirBooks) {
+  int count = 0;
+  for (const auto& entry :
+       std::filesystem::directory_iterator(KINGPIN_SOURCE_DIR "/examples/mechanisms")) {
+    if (entry.path().extension() != ".yaml") continue;
+    ++count;
+    MechanismFile file = ReadMechanismFile(entry.path());
+    file.simulation.duration = std::min(file.simulation.duration, 1.0);
+    const MechanismRun run = RunMechanism(file);
+    EXPECT_LE(run.summary["largest_residual"]["position"].get<double>(), 1e-9) << entry.path();
+    const auto& energy = run.summary["energy"];
+    EXPECT_LE(energy["largest_error"].get<double>(),
+              1e-4 * std::max(energy["largest_kinetic"].get<double>(), 0.01))
+        << entry.path();
+  }
+  EXPECT_GE(count, 3);
+}
+
+}  // namespace
+}  // namespace kingpin::joints
