@@ -104,11 +104,14 @@ Modes CalcModes(const LinearModel& model) {
   const double drift_size =
       zeros.algebraic > 0 ? sizes[static_cast<std::size_t>(zeros.algebraic) - 1] : -1.0;
 
+  const double rounding = 16 * std::numeric_limits<double>::epsilon() * model.a.norm();
   result.rk4_step_limit = std::numeric_limits<double>::infinity();
   for (Eigen::Index i = 0; i < values.size(); ++i) {
     Complex value = values(i);
     const bool drift = std::abs(value) <= drift_size;
     if (drift) value = 0.0;
+    // An undamped mode comes out of the iteration with a real part of either sign.
+    if (value.imag() != 0.0 && std::abs(value.real()) <= rounding) value.real(0.0);
     if (value.imag() < 0.0) continue;  // the other one of a pair
     if (value.real() > 0.0) result.stable = false;
     result.rk4_step_limit = std::min(result.rk4_step_limit, CalcRk4Limit(value));
@@ -117,7 +120,7 @@ Modes CalcModes(const LinearModel& model) {
     mode.eigenvalue = value;
     mode.frequency = std::abs(value) / (2.0 * std::numbers::pi);
     mode.damped_frequency = value.imag() / (2.0 * std::numbers::pi);
-    mode.damping_ratio = drift ? 0.0 : -value.real() / std::abs(value);
+    mode.damping_ratio = drift || value.real() == 0.0 ? 0.0 : -value.real() / std::abs(value);
     mode.time_constant = drift || value.real() == 0.0 ? 0.0 : -1.0 / value.real();
 
     Eigen::VectorXcd shape = solver.eigenvectors().col(i);
