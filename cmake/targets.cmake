@@ -24,7 +24,8 @@ function(kingpin_isa_kernels target)
     target_compile_options(${object} PRIVATE
       # GCC 12 takes the undefined source of its own masked AVX-512 intrinsics for an uninitialised variable (PR 105593).
       -Wno-maybe-uninitialized -Wno-uninitialized
-      ${flags_${isa}} -O3 -ffp-contract=fast -fno-math-errno -fno-trapping-math)
+      # Neither traps nor the sign of a zero matter; NaN does (it is how a diverging lane is found).
+      ${flags_${isa}} -O3 -ffp-contract=fast -fno-math-errno -fno-trapping-math -fno-signed-zeros)
     if(KINGPIN_SANITIZE AND CMAKE_CXX_COMPILER_ID STREQUAL GNU)
       # GCC 12 needs many minutes for checks of every pack on the stack of these large inlined functions. What the
       # kernels get from outside (heap, bounds, arithmetic) stays checked; the same templates on double are checked in full.

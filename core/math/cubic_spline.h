@@ -136,6 +136,115 @@ X EvaluateSplineIntegral(const SplineShape& shape, const SplineSegments<S, kMaxN
   return sum + X(0.5) * above * above * s.slope_right + X(0.5) * below * below * s.slope_left;
 }
 
+/// The cubic (or the straight end) that S(x) was last found on, lane by lane:
+///
+///   S(x) = value + t (b + t (c + t d)),  t = x − low,  for low <= x < high.
+///
+/// An argument that moves little between evaluations rarely leaves it, so that an evaluation is one
+/// cubic instead of a walk over the segments from the anchor to x. A new piece is looked up for the
+/// lanes that have left theirs, one by one; S(x) depends on x alone. For packs, and duals of packs.
+template <class S>
+struct SplinePiece {
+  using V = decltype(Value(S{}));
+  V low{1.0}, high{-1.0};  // empty: no argument is within
+  S value{}, b{}, c{}, d{};
+};
+
+/// Finds the pieces of the lanes of x that have left theirs.
+template <int kLanes, class S, int kMaxNodes>
+[[gnu::noinline]] void UpdatePiece(const SplineShape& shape, const SplineSegments<S, kMaxNodes>& s,
+                                   const typename SplinePiece<S>::V& x, SplinePiece<S>& piece) {
+  for (int lane = 0; lane < kLanes; ++lane) {
+    const double at = GetLane(x, lane);
+    if (GetLane(piece.low, lane) <= at && at < GetLane(piece.high, lane)) continue;
+    const auto set = [&](double low, double high, const auto& value, const auto& b, const auto& c,
+                         const auto& d) {
+      SetLane(piece.low, lane, low);
+      SetLane(piece.high, lane, high);
+      SetLane(piece.value, lane, value);
+      SetLane(piece.b, lane, b);
+      SetLane(piece.c, lane, c);
+      SetLane(piece.d, lane, d);
+    };
+    constexpr double kFar = 1e300;
+    auto value = GetLane(s.anchor_value, lane);
+    using L = decltype(value);
+    const L zero(0.0);
+    if (shape.count == 0) {
+      set(-kFar, kFar, zero, zero, zero, zero);
+      continue;
+    }
+    const auto node = [&](int k) {
+      // Segments start at their node next to the anchor.
+      return k == 0                 ? GetLane(Value(s.first), lane)
+             : k == shape.count - 1 ? GetLane(Value(s.last), lane)
+             : k >= shape.anchor    ? GetLane(Value(s.segment[k].start), lane)
+                                    : GetLane(Value(s.segment[k - 1].start), lane);
+    };
+    // From the anchor outwards; `value` is that of the node passed last. NaN goes left and stays
+    // NaN on any piece.
+    int k = shape.anchor;
+    if (at >= node(k)) {
+      for (; k < shape.count - 1 && at >= node(k + 1); ++k) {
+        const auto& p = s.segment[k];
+        const double w = node(k + 1) - node(k);
+        value =
+            value + (GetLane(p.b, lane) + (GetLane(p.c, lane) + GetLane(p.d, lane) * w) * w) * w;
+      }
+      if (k == shape.count - 1) {
+        set(node(k), kFar, value, GetLane(s.slope_right, lane), zero, zero);
+      } else {
+        const auto& p = s.segment[k];
+        set(node(k), node(k + 1), value, GetLane(p.b, lane), GetLane(p.c, lane),
+            GetLane(p.d, lane));
+      }
+      continue;
+    }
+    L b = zero, c = zero, d = zero;
+    double w = 0;
+    do {
+      if (k == 0) {
+        // The straight end, in lengths that keep its digits.
+        w = node(shape.count - 1) - node(0);
+        w = w * __builtin_ceil((node(0) - at) / w);
+        b = -GetLane(s.slope_left, lane);
+        c = d = zero;
+        value = value + b * w;
+        set(node(0) - w, node(0), value, -b, zero, zero);
+        break;
+      }
+      --k;
+      const auto& p = s.segment[k];
+      b = GetLane(p.b, lane);
+      c = GetLane(p.c, lane);
+      d = GetLane(p.d, lane);
+      w = node(k + 1) - node(k);
+      value = value + (b + (c + d * w) * w) * w;
+      // The segment's t grows to the left from its right end: u = w − t.
+      if (at >= node(k)) {
+        set(node(k), node(k + 1), value, -(b + (2.0 * c + 3.0 * d * w) * w), c + 3.0 * d * w, -d);
+        break;
+      }
+    } while (true);
+  }
+}
+
+/// S(x) and, if asked for, dS/dx.
+template <int kLanes, bool kWithSlope, class S, int kMaxNodes>
+KINGPIN_INLINE S EvaluatePiece(const SplineShape& shape, const SplineSegments<S, kMaxNodes>& s,
+                               const S& x, SplinePiece<S>& piece, S& slope) {
+  const auto at = Value(x);
+  if (__builtin_expect(!All((piece.low <= at) & (at < piece.high)), 0)) {
+    UpdatePiece<kLanes>(shape, s, at, piece);
+  }
+  const S t = x - piece.low;
+  const S cd = piece.c + t * piece.d;
+  const S bcd = piece.b + t * cd;
+  // b + 2 c t + 3 d t² = (b + c t + d t²) + t ((c + d t) + d t)
+  if constexpr (kWithSlope) slope = bcd + t * (cd + t * piece.d);
+  return piece.value + t * bcd;
+}
+
 template <class S, int kMaxNodes = 16>
 class CubicSpline {
  public:

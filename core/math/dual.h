@@ -161,6 +161,34 @@ struct Dual {
     s = ds;
     c = dc;
   }
+  KINGPIN_INLINE friend void SinCosMinusOne(const Dual& a, Dual& s, Dual& c1) {
+    T sine, cosine_minus_one;
+    using math::SinCosMinusOne;
+    SinCosMinusOne(a.v, sine, cosine_minus_one);
+    const T cosine = cosine_minus_one + T(1.0);
+    Dual ds, dc;
+    ds.v = sine;
+    dc.v = cosine_minus_one;
+    for (int i = 0; i < N; ++i) {
+      ds.d[i] = cosine * a.d[i];
+      dc.d[i] = -(sine * a.d[i]);
+    }
+    s = ds;
+    c1 = dc;
+  }
+  /// One lane, of Pack only.
+  KINGPIN_INLINE friend auto GetLane(const Dual& a, int lane) {
+    const auto v = GetLane(a.v, lane);
+    Dual<std::remove_const_t<decltype(v)>, N> r;
+    r.v = v;
+    for (int i = 0; i < N; ++i) r.d[i] = GetLane(a.d[i], lane);
+    return r;
+  }
+  template <class U>
+  KINGPIN_INLINE friend void SetLane(Dual& a, int lane, const Dual<U, N>& value) {
+    SetLane(a.v, lane, value.v);
+    for (int i = 0; i < N; ++i) SetLane(a.d[i], lane, value.d[i]);
+  }
   KINGPIN_INLINE friend T Value(const Dual& a) { return a.v; }
 };
 

@@ -157,14 +157,17 @@ struct Pack {
       return Pack(Register(std::experimental::sqrt(a.r)));
     }
   }
-  /// A cubic start, y = 1 − u/2 + 3u²/8, and one step of fourth order: exact to rounding up to |u|
-  /// = 0.06 (the remainder r = 1 − (1 + u) y² is then 1.4e-4 and enters with r⁴ · 35/128 = 1e-16).
-  /// A lane beyond that gets the square root and the division.
+  /// The binomial series up to |u| = 0.005, where it is exact to rounding: the first neglected term
+  /// is 429/2048 · 0.005⁷ = 2e-17. A lane beyond that gets the square root and the division.
   KINGPIN_INLINE friend Pack InverseSqrtNearOne(const Pack& u) {
-    const Pack y = Pack(1.0) - u * (Pack(0.5) - Pack(0.375) * u);
-    const Pack r = Pack(1.0) - (y * y) * (Pack(1.0) + u);
-    Pack result = y + (y * r) * (Pack(0.5) + r * (Pack(0.375) + r * Pack(0.3125)));
-    const Mask outside = !(Abs(u) <= Pack(0.06));
+    Pack p(231.0 / 1024.0);
+    p = p * u + Pack(-63.0 / 256.0);
+    p = p * u + Pack(35.0 / 128.0);
+    p = p * u + Pack(-5.0 / 16.0);
+    p = p * u + Pack(3.0 / 8.0);
+    p = p * u + Pack(-0.5);
+    Pack result = p * u + Pack(1.0);
+    const Mask outside = !(Abs(u) <= Pack(0.005));
     if (__builtin_expect(Any(outside), 0)) {
       result = Select(outside, Pack(1.0) / Sqrt(Pack(1.0) + u), result);
     }
@@ -206,6 +209,33 @@ struct Pack {
     s = sine;
     c = cosine;
   }
+
+  /// Shorter polynomials up to |x| = 0.1, where they are exact to rounding: the first neglected
+  /// terms are 0.1^10/11! = 3e-18 of sin x and 0.1^10/10! = 3e-17. A lane beyond that range gets
+  /// what SinCos gives.
+  KINGPIN_INLINE friend void SinCosMinusOne(const Pack& x, Pack& s, Pack& c1) {
+    const Pack x2 = x * x;
+    Pack p(1.0 / 362880.0);
+    p = p * x2 + Pack(-1.0 / 5040.0);
+    p = p * x2 + Pack(1.0 / 120.0);
+    p = p * x2 + Pack(-1.0 / 6.0);
+    s = x + (x * x2) * p;
+    Pack w(1.0 / 40320.0);
+    w = w * x2 + Pack(-1.0 / 720.0);
+    w = w * x2 + Pack(1.0 / 24.0);
+    w = w * x2 + Pack(-0.5);
+    c1 = x2 * w;
+    const Mask outside = !(x2 <= Pack(0.01));  // also true for NaN
+    if (__builtin_expect(Any(outside), 0)) {
+      Pack sine, cosine;
+      SinCos(x, sine, cosine);
+      s = Select(outside, sine, s);
+      c1 = Select(outside, cosine - Pack(1.0), c1);
+    }
+  }
+
+  KINGPIN_INLINE friend T GetLane(const Pack& a, int lane) { return a.get(lane); }
+  KINGPIN_INLINE friend void SetLane(Pack& a, int lane, T value) { a.set(lane, value); }
 };
 
 }  // namespace kingpin::math

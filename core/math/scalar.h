@@ -9,6 +9,7 @@
 ///   Select(mask, a, b)   mask ? a : b, lane by lane; both sides are evaluated
 ///   Min, Max, Abs, Sqrt, Exp
 ///   SinCos(x, s, c)      s = sin x, c = cos x
+///   SinCosMinusOne(x, s, c1)  s = sin x, c1 = cos x − 1, cheap for small x
 ///   InverseSqrtNearOne(u) 1/√(1 + u), cheap for small u
 ///   Any(mask), All(mask) over the lanes
 ///   Value(x)             x without its derivatives
@@ -32,6 +33,10 @@ KINGPIN_INLINE double Exp(double x) { return ::exp(x); }
 KINGPIN_INLINE void SinCos(double x, double& s, double& c) {
   s = ::sin(x);
   c = ::cos(x);
+}
+KINGPIN_INLINE void SinCosMinusOne(double x, double& s, double& c1) {
+  s = ::sin(x);
+  c1 = ::cos(x) - 1.0;
 }
 KINGPIN_INLINE bool Any(bool mask) { return mask; }
 KINGPIN_INLINE bool All(bool mask) { return mask; }

@@ -175,6 +175,7 @@ void BatchWorkspace::Run(std::span<const Parameters<T>> designs, const Excitatio
     } else {
       (one ? kernels.run_one : kernels.run)(job);
     }
+    int valid[8];
     for (size_t lane = 0; lane < pack.size(); ++lane) {
       const size_t design = static_cast<size_t>(pack[lane]);
       BatchOutcome& outcome = result.outcomes_[design];
@@ -187,16 +188,28 @@ void BatchWorkspace::Run(std::span<const Parameters<T>> designs, const Excitatio
         outcome.failure_time = options.duration * failed_sample[lane] / (samples - 1);
         outcome.failure_coordinate = failed_coordinate[lane];
       }
-      const int valid = outcome.failed ? failed_sample[lane] : samples;
-      double* to = result.values_.data() +
-                   design * kBatchSignals * kPartCount * static_cast<size_t>(samples);
-      const int rows = kBatchSignals * kPartCount;
-      for (int row = 0; row < rows; ++row) {
-        const double* from = s.lanes.data() + static_cast<size_t>(row * lanes) + lane;
-        for (int i = 0; i < samples; ++i) {
-          to[static_cast<long>(row) * samples + i] =
-              i < valid ? from[static_cast<long>(i) * rows * lanes] : 0.0;
+      valid[lane] = outcome.failed ? failed_sample[lane] : samples;
+    }
+    // From sample by sample to design by design, in blocks that stay in the first-level cache.
+    const size_t rows = kBatchSignals * kPartCount;
+    const size_t stride = rows * static_cast<size_t>(lanes);
+    constexpr int kBlock = 16;
+    for (int begin = 0; begin < samples; begin += kBlock) {
+      for (size_t lane = 0; lane < pack.size(); ++lane) {
+        const int end = std::min(begin + kBlock, valid[lane]);
+        double* to = result.values_.data() +
+                     static_cast<size_t>(pack[lane]) * rows * static_cast<size_t>(samples);
+        for (size_t row = 0; row < rows; ++row, to += samples) {
+          const double* from = s.lanes.data() + row * static_cast<size_t>(lanes) + lane;
+          for (int i = begin; i < end; ++i) to[i] = from[static_cast<size_t>(i) * stride];
         }
+      }
+    }
+    for (size_t lane = 0; lane < pack.size(); ++lane) {
+      double* to = result.values_.data() +
+                   static_cast<size_t>(pack[lane]) * rows * static_cast<size_t>(samples);
+      for (size_t row = 0; row < rows; ++row, to += samples) {
+        std::fill(to + valid[lane], to + samples, 0.0);
       }
     }
   };

@@ -48,6 +48,7 @@ enum class FrictionMode { kSlip, kStick };
 
 template <class S>
 struct Dynamics {
+  S resistance[kCoordinates];  ///< minus the sum of all forces: m a = −resistance [N], [N m]
   S a[kCoordinates];
   S extra_rate[kExtraStates];
   S rod_force;        ///< axial, tension positive [N]
@@ -73,28 +74,66 @@ struct Tangent {
   S assist_slope;            ///< df/d|M| [N/(N m)]
 };
 
+/// Whether a road force is zero for all lanes, as most of a run's is. Not looked at lane by lane.
+KINGPIN_INLINE bool IsZero(double force) { return force == 0.0; }
+template <class F>
+KINGPIN_INLINE bool IsZero(const F&) {
+  return false;
+}
+
+/// The two characteristics, evaluated from all their segments.
+template <class S>
+struct SegmentCurves {
+  template <bool kWithSlope, class St>
+  KINGPIN_INLINE S EvaluateLongitudinal(const St& st, const Constants<S>& k, const S& d,
+                                        S& slope) const {
+    return math::EvaluateSpline<kWithSlope>(st.longitudinal, k.longitudinal_force, d, slope);
+  }
+  template <bool kWithSlope, class St>
+  KINGPIN_INLINE S EvaluateAssist(const St& st, const Constants<S>& k, const S& m, S& slope) const {
+    return math::EvaluateSpline<kWithSlope>(st.assist, k.assist_force, m, slope);
+  }
+};
+
+/// The same, remembering on which pieces they were last found: for runs of packs, which evaluate
+/// them at arguments that move little.
+template <class S, int kLanes>
+struct PieceCurves {
+  math::SplinePiece<S> longitudinal, assist;
+
+  template <bool kWithSlope, class St>
+  KINGPIN_INLINE S EvaluateLongitudinal(const St& st, const Constants<S>& k, const S& d, S& slope) {
+    return math::EvaluatePiece<kLanes, kWithSlope>(st.longitudinal, k.longitudinal_force, d,
+                                                   longitudinal, slope);
+  }
+  template <bool kWithSlope, class St>
+  KINGPIN_INLINE S EvaluateAssist(const St& st, const Constants<S>& k, const S& m, S& slope) {
+    return math::EvaluatePiece<kLanes, kWithSlope>(st.assist, k.assist_force, m, assist, slope);
+  }
+};
+
 /// Accelerations, rates of the extra states and loads at (x, F_T).
 /// `slip` (Coulomb only): the sign of the sliding speed, lane by lane; 0 means that the rack
 /// sticks: its acceleration is zero and friction_force is the reaction that this takes, which the
 /// caller compares with friction_limit.
-/// F: S, or double when all lanes have the same road force.
-template <bool kWithTangent, class S, class F>
-KINGPIN_INLINE void CalcDynamics(const Structure& st, const Constants<S>& k, const State<S>& x,
-                                 const F& road_force, const S& slip, Dynamics<S>& out,
-                                 Tangent<S>& tangent) {
+/// F: S, or double when all lanes have the same road force. St: Structure or PlainStructure;
+/// Curves: SegmentCurves or PieceCurves.
+template <bool kWithTangent, class St, class S, class F, class Curves>
+KINGPIN_INLINE void CalcDynamics(const St& st, const Constants<S>& k, const State<S>& x,
+                                 const F& road_force, const S& slip, Curves& curves,
+                                 Dynamics<S>& out, Tangent<S>& tangent) {
   using math::Abs;
   using math::InverseSqrtNearOne;
   using math::Max;
   using math::Min;
   using math::Select;
-  using math::SinCos;
+  using math::SinCosMinusOne;
   using math::Sqrt;
   const S zero(0.0);
   const S &dx = x.q[0], &dy = x.q[1], &psi = x.q[2], &rack = x.q[3], &phi = x.q[4];
   const S &vx = x.v[0], &vy = x.v[1], &w = x.v[2], &rack_v = x.v[3], &phi_v = x.v[4];
-  S s, c;
-  SinCos(psi, s, c);
-  const S c1 = c - 1.0;
+  S s, c1;
+  SinCosMinusOne(psi, s, c1);
 
   // Tie rod.
   const S turn_x = c1 * k.outer_x - s * k.outer_y;
@@ -117,32 +156,37 @@ KINGPIN_INLINE void CalcDynamics(const Structure& st, const Constants<S>& k, con
   const S inverse_length = inverse * k.inverse_rod_length;
   const S ex = length_x * inverse_length;
   const S ey = length_y * inverse_length;
-  S elongation = k.rod_length * ((1.0 + u) * inverse - 1.0);
+  const S strain = (1.0 + u) * inverse - 1.0;
   const S rod_rate = ex * rate_x + ey * rate_y;
   S rod_damping_force = k.rod_damping * rod_rate;
+  S rod_elastic_force;
   if (st.has_free_play) {
+    const S elongation = k.rod_length * strain;
     const S slack = Max(Min(elongation, k.rod_half_play), -k.rod_half_play);
     rod_damping_force = Select(Abs(elongation) > k.rod_half_play, rod_damping_force, zero);
-    elongation = elongation - slack;
+    rod_elastic_force = k.rod_stiffness * (elongation - slack);
+  } else {
+    rod_elastic_force = k.rod_force_scale * strain;
   }
-  const S rod_force = k.rod_stiffness * elongation + rod_damping_force;
+  const S rod_force = rod_elastic_force + rod_damping_force;
   const S rod_fx = rod_force * ex;
   const S rod_fy = rod_force * ey;
 
   // Supports.
   const auto& l = k.lateral;
-  const S lateral_lever = c * l.lever - s * l.offset;
+  const S lateral_lever = l.lever + (c1 * l.lever - s * l.offset);
   const S lateral_d = l.nx * dx + l.ny * dy + (s * l.lever + c1 * l.offset);
   const S lateral_rate = l.nx * vx + l.ny * vy + w * lateral_lever;
   const S lateral_force = k.lateral_stiffness * lateral_d + k.lateral_damping * lateral_rate;
   const auto& n = k.longitudinal;
-  const S longitudinal_lever = c * n.lever - s * n.offset;
+  const S longitudinal_lever = n.lever + (c1 * n.lever - s * n.offset);
   const S longitudinal_d = n.nx * dx + n.ny * dy + (s * n.lever + c1 * n.offset);
   const S longitudinal_rate = n.nx * vx + n.ny * vy + w * longitudinal_lever;
-  const S longitudinal_force =
-      math::EvaluateSpline<kWithTangent>(st.longitudinal, k.longitudinal_force, longitudinal_d,
-                                         tangent.longitudinal_stiffness) +
-      k.longitudinal_damping * longitudinal_rate;
+  S longitudinal_force = curves.template EvaluateLongitudinal<kWithTangent>(
+      st, k, longitudinal_d, tangent.longitudinal_stiffness);
+  if (st.has_own_dampers()) {
+    longitudinal_force = longitudinal_force + k.longitudinal_damping * longitudinal_rate;
+  }
 
   // Column and assistance.
   const S twist = phi - k.gear_ratio * rack;
@@ -159,11 +203,11 @@ KINGPIN_INLINE void CalcDynamics(const Structure& st, const Constants<S>& k, con
   out.extra_rate[kAligningState] = zero;
   out.extra_rate[kAssistState] = zero;
   out.extra_rate[kAssistRateState] = zero;
-  if (st.assist.count > 0) {
+  if (st.has_assist()) {
     const auto negative = bar_torque < zero;
-    const S magnitude = Select(negative, -bar_torque, bar_torque);
-    const S curve = math::EvaluateSpline<kWithTangent>(st.assist, k.assist_force, magnitude,
-                                                       tangent.assist_slope);
+    const S magnitude = Abs(bar_torque);
+    const S curve =
+        curves.template EvaluateAssist<kWithTangent>(st, k, magnitude, tangent.assist_slope);
     assist = Select(negative, -curve, curve);
     if (st.assist_lag == AssistLag::kFirstOrder) {
       out.extra_rate[kAssistState] = (assist - x.extra[kAssistState]) * k.assist_rate;
@@ -177,52 +221,62 @@ KINGPIN_INLINE void CalcDynamics(const Structure& st, const Constants<S>& k, con
     }
   }
 
-  // Carrier.
-  const S road_y = road_force * k.road_lateral_share;
-  const S road_lever = c * k.road_lever - s * k.road_offset;
-  const S sum_x = -rod_fx - lateral_force * l.nx - longitudinal_force * n.nx - road_force;
-  const S sum_y = -rod_fy - lateral_force * l.ny - longitudinal_force * n.ny - road_y;
-  S sum_psi = ry * rod_fx - rx * rod_fy - lateral_force * lateral_lever -
-              longitudinal_force * longitudinal_lever + road_force * road_lever;
+  // Carrier. The sums are those of the resisting forces.
+
+  S sum_x = rod_fx + lateral_force * l.nx + longitudinal_force * n.nx;
+  S sum_y = rod_fy + lateral_force * l.ny + longitudinal_force * n.ny;
+  S sum_psi = (rx * rod_fy - ry * rod_fx) + lateral_force * lateral_lever +
+              longitudinal_force * longitudinal_lever;
+  out.supplied_power = zero;
+  if (!IsZero(road_force)) {
+    const S road_lever = k.road_lever + (c1 * k.road_lever - s * k.road_offset);
+    sum_x = sum_x + road_force;
+    sum_y = sum_y + road_force * k.road_lateral_share;
+    sum_psi = sum_psi - road_force * road_lever;
+    out.supplied_power = road_force * (w * road_lever - vx - k.road_lateral_share * vy);
+  }
   S lagged_power = zero;
   S aligning_dissipation = zero;
   if (st.has_aligning_lag) {
     const S moment = k.aligning_stiffness * x.extra[kAligningState];
-    sum_psi = sum_psi - moment;
+    sum_psi = sum_psi + moment;
     lagged_power = -(moment * w);
     out.extra_rate[kAligningState] = (psi - x.extra[kAligningState]) * k.aligning_rate;
   } else if (st.has_aligning) {
-    sum_psi = sum_psi - k.aligning_stiffness * psi - k.aligning_damping * w;
+    sum_psi = sum_psi + k.aligning_stiffness * psi + k.aligning_damping * w;
     aligning_dissipation = k.aligning_damping * w * w;
   }
 
   // Rack.
-  S sum_rack = rod_fy + k.gear_ratio * torque + assist - k.rack_damping * rack_v;
+  S sum_rack = -(rod_fy + assist) - k.gear_ratio * torque;
+  if (st.has_own_dampers()) sum_rack = sum_rack + k.rack_damping * rack_v;
   S friction = zero;
   S limit = zero;
   if (st.friction_law != FrictionLaw::kNone) {
     limit = k.friction_coefficient * Abs(rod_fx) + k.friction_base;
     if (st.friction_law == FrictionLaw::kSmoothed) {
       friction = -(limit * rack_v) / Sqrt(rack_v * rack_v + k.friction_speed_squared);
-      sum_rack = sum_rack + friction;
+      sum_rack = sum_rack - friction;
     } else {
       const auto sticks = slip == zero;
-      friction = Select(sticks, -sum_rack, -(slip * limit));
-      sum_rack = Select(sticks, zero, sum_rack + friction);
+      friction = Select(sticks, sum_rack, -(slip * limit));
+      sum_rack = Select(sticks, zero, sum_rack - friction);
     }
   }
-  const S sum_phi = -torque - k.hands_stiffness * phi - k.hands_damping * phi_v;
+  S sum_phi = torque;
+  if (st.has_hands()) sum_phi = sum_phi + k.hands_stiffness * phi + k.hands_damping * phi_v;
 
   if constexpr (kWithTangent) {
     tangent.rod_lever = rx * ey - ry * ex;
     tangent.lateral_lever = lateral_lever;
     tangent.longitudinal_lever = longitudinal_lever;
   }
-  out.a[0] = sum_x * k.inverse_mass[0];
-  out.a[1] = sum_y * k.inverse_mass[1];
-  out.a[2] = sum_psi * k.inverse_mass[2];
-  out.a[3] = sum_rack * k.inverse_mass[3];
-  out.a[4] = sum_phi * k.inverse_mass[4];
+  out.resistance[0] = sum_x;
+  out.resistance[1] = sum_y;
+  out.resistance[2] = sum_psi;
+  out.resistance[3] = sum_rack;
+  out.resistance[4] = sum_phi;
+  for (int i = 0; i < kCoordinates; ++i) out.a[i] = -(out.resistance[i] * k.inverse_mass[i]);
   out.rod_force = rod_force;
   out.rod_rate = rod_rate;
   out.rod_direction_x = ex;
@@ -237,15 +291,15 @@ KINGPIN_INLINE void CalcDynamics(const Structure& st, const Constants<S>& k, con
       k.longitudinal_damping * longitudinal_rate * longitudinal_rate +
       k.column_damping * twist_rate * twist_rate + aligning_dissipation +
       k.rack_damping * rack_v * rack_v + k.hands_damping * phi_v * phi_v - friction * rack_v;
-  out.supplied_power = road_force * (w * road_lever - vx - k.road_lateral_share * vy) +
-                       assist * rack_v + lagged_power;
+  out.supplied_power = out.supplied_power + assist * rack_v + lagged_power;
 }
 
 template <class S, class F>
 KINGPIN_INLINE void CalcDynamics(const Structure& st, const Constants<S>& k, const State<S>& x,
                                  const F& road_force, const S& slip, Dynamics<S>& out) {
+  SegmentCurves<S> curves;
   Tangent<S> unused;
-  CalcDynamics<false>(st, k, x, road_force, slip, out, unused);
+  CalcDynamics<false>(st, k, x, road_force, slip, curves, out, unused);
 }
 
 /// ½ q̇ᵀ M q̇ [J].

@@ -23,6 +23,9 @@ struct Structure {
   bool has_aligning = false;
   bool has_aligning_lag = false;
   bool has_stops = false;
+  /// Neither aligning stiffness nor hands, dampers of the longitudinal support or the rack. Designs
+  /// with and without do not share a pack: their code differs in the order of rounding.
+  bool is_bare = false;
   FrictionLaw friction_law = FrictionLaw::kNone;
   AssistLag assist_lag = AssistLag::kNone;
 
@@ -30,6 +33,10 @@ struct Structure {
   bool has_events() const {
     return friction_law == FrictionLaw::kCoulomb || has_stops || has_free_play;
   }
+  bool has_assist() const { return assist.count > 0; }
+  // Kept also with zero stiffness and damping, whose derivatives may not be zero.
+  static constexpr bool has_hands() { return true; }
+  static constexpr bool has_own_dampers() { return true; }
   bool has_extra_states() const { return has_aligning_lag || assist_lag != AssistLag::kNone; }
   friend bool operator==(const Structure& a, const Structure& b) {
     return a.longitudinal.count == b.longitudinal.count &&
@@ -37,9 +44,37 @@ struct Structure {
            a.assist.anchor == b.assist.anchor && a.two_way == b.two_way &&
            a.has_free_play == b.has_free_play && a.has_aligning == b.has_aligning &&
            a.has_aligning_lag == b.has_aligning_lag && a.has_stops == b.has_stops &&
-           a.friction_law == b.friction_law && a.assist_lag == b.assist_lag;
+           a.is_bare == b.is_bare && a.friction_law == b.friction_law &&
+           a.assist_lag == b.assist_lag;
   }
 };
+
+/// The structure that most runs have, and whose branches the compiler therefore knows: a two-way
+/// rod, assistance without lag, none of the elements that switch, rub or remember.
+/// `kBare`: Structure::is_bare.
+template <bool kBare>
+struct PlainStructure {
+  math::SplineShape longitudinal;
+  math::SplineShape assist;
+  static constexpr bool two_way = true;
+  static constexpr bool has_free_play = false;
+  static constexpr bool has_aligning = !kBare;
+  static constexpr bool has_aligning_lag = false;
+  static constexpr bool has_stops = false;
+  static constexpr FrictionLaw friction_law = FrictionLaw::kNone;
+  static constexpr AssistLag assist_lag = AssistLag::kNone;
+
+  explicit PlainStructure(const Structure& st) : longitudinal(st.longitudinal), assist(st.assist) {}
+  static constexpr bool has_assist() { return true; }
+  static constexpr bool has_extra_states() { return false; }
+  static constexpr bool has_hands() { return !kBare; }
+  static constexpr bool has_own_dampers() { return !kBare; }
+};
+
+inline bool IsPlain(const Structure& st) {
+  return st.two_way && !st.has_free_play && !st.has_aligning_lag && !st.has_stops &&
+         st.friction_law == FrictionLaw::kNone && st.assist_lag == AssistLag::kNone;
+}
 
 /// A support along a fixed direction n at the carrier's point p: its elongation is
 ///   d = n·(x, y) + lever sin ψ + offset (cos ψ − 1),  lever = p_x n_y − p_y n_x,  offset = n·p,
@@ -56,6 +91,7 @@ struct Constants {
   S outer_x, outer_y, rod_x, rod_y, rod_length, rod_length_squared, inverse_rod_length,
       inverse_rod_length_squared;
   S rod_stiffness, rod_damping, rod_half_play;
+  S rod_force_scale;  ///< stiffness times length: force per strain [N]
   Line<S> lateral;
   S lateral_stiffness, lateral_damping;
   Line<S> longitudinal;
@@ -105,6 +141,7 @@ Model<S> MakeModel(const Parameters<S>& p) {
   k.inverse_rod_length_squared = k.inverse_rod_length * k.inverse_rod_length;
   k.rod_stiffness = 1.0 / (k.rod_length / p.rod_rigidity + p.rod_compliance);
   k.rod_damping = p.damping_time * k.rod_stiffness;
+  k.rod_force_scale = k.rod_stiffness * k.rod_length;
   k.rod_half_play = 0.5 * p.rod_free_play;
   st.two_way = p.two_way;
   st.has_free_play = Value(p.rod_free_play) > 0.0;
@@ -151,6 +188,10 @@ Model<S> MakeModel(const Parameters<S>& p) {
   k.hands_stiffness = p.hands_stiffness;
   k.hands_damping = p.hands_damping;
   k.rim_radius = p.rim_radius;
+
+  st.is_bare = !st.has_aligning && Value(p.hands_stiffness) == 0.0 &&
+               Value(p.hands_damping) == 0.0 && Value(p.longitudinal_damping) == 0.0 &&
+               Value(p.rack_damping) == 0.0;
 
   const auto assist = MakeSpline(p.assist_force);
   k.assist_force = assist.segments();

@@ -121,7 +121,7 @@ class FastRun {
   void Advance(const ScheduleStep& step) {
     if (step.kind == StepKind::kAdams) {
       AdamsEnd<double> end;
-      StepAdams(st_, k_, rod_, adams_, step.force[2], history_, now_.state, error_, end);
+      StepAdams(st_, k_, rod_, adams_, step.force[2], curves_, history_, now_.state, error_, end);
       PushPower(step.force[2]);
       for (int j = 0; j < kAdamsOrder; ++j) {
         const Ledger<double>& power = powers_[(head_ + j) & 7];
@@ -130,6 +130,7 @@ class FastRun {
       }
       return;
     }
+    history_.rod_known = false;
     State<double> middle = now_.state;
     OneStepWeights<double, double> half, whole;
     MakeOneStepWeights(rod_, 0.5 * step.h, half);
@@ -193,6 +194,7 @@ class FastRun {
   RodMode<double> rod_;
   AdamsWeights<double> adams_;
   AdamsHistory<double> history_{};
+  SegmentCurves<double> curves_;
   double corrector_[kAdamsOrder];
   Ledger<double> powers_[8] = {};
   int head_ = 0;

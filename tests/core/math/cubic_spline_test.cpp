@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "core/math/dual.h"
+#include "core/math/pack.h"
 
 namespace kingpin::math {
 namespace {
@@ -172,6 +173,52 @@ TEST(Spline, IntegralIsTheAreaUnderIt) {
       EXPECT_NEAR(spline.CalcIntegral(x), sum * h / 3, 1e-9) << x;
     }
   }
+}
+
+// Two routes to every value: the piece that a random walk was last found on, and the walk over all
+// segments from the anchor. Lane 0 holds the natural spline, lane 1 the monotone one.
+TEST(SplinePiece, FollowsARandomWalkOnTheSpline) {
+  using Lanes = Pack<double, 2, isa::Portable>;
+  const Spline<double> splines[] = {MakeNatural(), MakeMonotone()};
+  SplineSegments<Lanes, 16> segments;
+  static_assert(sizeof(segments) == 2 * sizeof(splines[0].segments()));
+  const double* from[] = {reinterpret_cast<const double*>(&splines[0].segments()),
+                          reinterpret_cast<const double*>(&splines[1].segments())};
+  Lanes* to = reinterpret_cast<Lanes*>(&segments);
+  for (size_t i = 0; i < sizeof(segments) / sizeof(Lanes); ++i) {
+    for (int lane = 0; lane < 2; ++lane) to[i].set(lane, from[lane][i]);
+  }
+  SplinePiece<Lanes> piece;
+  std::mt19937_64 random(7);
+  std::normal_distribution<double> step(0.0, 0.2);
+  double x[2] = {0.0, 0.3};
+  for (int i = 0; i < 2000; ++i) {
+    for (double& value : x) {
+      value = 0.98 * value + step(random);
+      // Nodes themselves, too.
+      if (i % 50 == 0) value = kX[static_cast<size_t>(i / 50 % kNodes)];
+    }
+    Lanes slope;
+    const Lanes value =
+        EvaluatePiece<2, true>(splines[0].shape(), segments, Lanes::Load(x), piece, slope);
+    for (int lane = 0; lane < 2; ++lane) {
+      // Rounding of values and slopes of the order of 10.
+      EXPECT_NEAR(value.get(lane), splines[lane](x[lane]), 1e-13) << x[lane];
+      EXPECT_NEAR(slope.get(lane), splines[lane].CalcSlope(x[lane]), 1e-12) << x[lane];
+    }
+  }
+}
+
+TEST(SplinePiece, KeepsNanToItsLaneAndRecovers) {
+  using Lanes = Pack<double, 2, isa::Portable>;
+  SplineSegments<Lanes, 16> none{};
+  SplinePiece<Lanes> piece;
+  Lanes slope;
+  const double bad[] = {std::nan(""), 1.0};
+  const Lanes value = EvaluatePiece<2, true>({}, none, Lanes::Load(bad), piece, slope);
+  EXPECT_TRUE(std::isnan(value.get(0)));
+  EXPECT_EQ(value.get(1), 0.0);
+  EXPECT_EQ((EvaluatePiece<2, true>({}, none, Lanes(2.0), piece, slope)).get(0), 0.0);
 }
 
 }  // namespace

@@ -22,25 +22,27 @@ constexpr double kBashforth[] = {198721, -447288, 705549, -688256, 407139, -1344
 
 TEST(ExponentialAdams, IsAdamsBashforthMoultonOfOrderSevenWithoutTheRod) {
   const AdamsWeights<double> weights = MakeWeightsWithoutRod();
+  const double h2 = weights.h * weights.h;
   for (int j = 0; j < kAdamsOrder; ++j) {
     // Lagrange polynomials with coefficients near 100 are put together in doubles.
-    EXPECT_NEAR(weights.predictor.v[j], kBashforth[j] / 60480, 1e-12) << j;
-    EXPECT_NEAR(weights.predictor.rod_q[j], 0, 1e-12) << j;
-    EXPECT_NEAR(weights.predictor.rod_v[j], 0, 1e-12) << j;
+    EXPECT_NEAR(weights.v[j] / weights.h, kBashforth[j] / 60480, 1e-12) << j;
+    EXPECT_NEAR(weights.rod_q[j] / h2, 0, 1e-12) << j;
+    EXPECT_NEAR(weights.rod_v[j] / weights.h, 0, 1e-12) << j;
   }
-  EXPECT_NEAR(weights.correct_v, 19087.0 / 60480, 1e-13);
-  EXPECT_NEAR(weights.rod_correct_v, 0, 1e-13);
-  EXPECT_NEAR(weights.rod_correct_q, 0, 1e-13);
+  EXPECT_NEAR(weights.correct_v / weights.h, 19087.0 / 60480, 1e-13);
+  EXPECT_NEAR(weights.rod_correct_v / weights.h, 0, 1e-13);
+  EXPECT_NEAR(weights.rod_correct_q / h2, 0, 1e-13);
 }
 
 // Positions from accelerations that are polynomials of the sixth degree: ∫_0^1 (1 − s) s^m ds.
 TEST(ExponentialAdams, PositionsAreExactForPolynomialsOfTheSixthDegree) {
   const AdamsWeights<double> weights = MakeWeightsWithoutRod();
+  const double h2 = weights.h * weights.h;
   for (int m = 0; m < kAdamsOrder; ++m) {
     double sum = 0;
     double largest = 0;
     for (int j = 0; j < kAdamsOrder; ++j) {
-      const double term = weights.predictor.q[j] * std::pow(-j, m);
+      const double term = weights.q[j] / h2 * std::pow(-j, m);
       sum += term;
       largest = std::max(largest, std::abs(term));
     }

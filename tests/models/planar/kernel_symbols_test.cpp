@@ -24,12 +24,17 @@ std::string RunCommand(const std::string& command) {
 TEST(KernelSymbols, EveryWeakSymbolNamesItsInstructionSet) {
   if (RunCommand("nm --version 2>/dev/null").empty()) GTEST_SKIP() << "nm is not installed";
   for (const std::string isa : {"Portable", "Avx2", "Avx512"}) {
-    const std::filesystem::path object = std::filesystem::path(KINGPIN_BINARY_DIR) / "models" /
+    const std::filesystem::path folder = std::filesystem::path(KINGPIN_BINARY_DIR) / "models" /
                                          "CMakeFiles" / ("kingpin_models_" + isa + ".dir") /
-                                         "planar" / "batch_kernel.cpp.o";
-    if (!std::filesystem::exists(object)) GTEST_SKIP() << "no object file at " << object;
-    const std::string symbols = RunCommand("nm -C '" + object.string() + "'");
-    ASSERT_FALSE(symbols.empty());
+                                         "planar";
+    if (!std::filesystem::exists(folder)) GTEST_SKIP() << "no object files in " << folder;
+    std::string symbols;
+    for (const char* kernel : {"batch", "runge_kutta", "adams", "adams_tangent", "events"}) {
+      const std::filesystem::path object = folder / (std::string(kernel) + "_kernel.cpp.o");
+      const std::string found = RunCommand("nm -C '" + object.string() + "'");
+      ASSERT_FALSE(found.empty()) << object;
+      symbols += found;
+    }
     size_t begin = 0;
     while (begin < symbols.size()) {
       const size_t end = symbols.find('\n', begin);
