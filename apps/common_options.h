@@ -41,5 +41,6 @@ void AddVerbOptimise(CLI::App& app, CommonOptions& options);
 void AddVerbSchema(CLI::App& app, CommonOptions& options);
 void AddVerbSimulate(CLI::App& app, CommonOptions& options);
 void AddVerbStudy(CLI::App& app, CommonOptions& options);
+void AddVerbUrdf(CLI::App& app, CommonOptions& options);
 
 }  // namespace kingpin::apps

@@ -95,6 +95,7 @@ int main(int argc, char** argv) {
   apps::AddVerbOptimise(app, options);
   apps::AddVerbModes(app, options);
   apps::AddVerbMetrics(app, options);
+  apps::AddVerbUrdf(app, options);
   apps::AddVerbCheck(app, options);
   apps::AddVerbSchema(app, options);
   const CLI::App* verb = nullptr;

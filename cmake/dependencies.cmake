@@ -5,6 +5,8 @@ find_package(SUNDIALS 6.4 REQUIRED COMPONENTS arkode cvodes kinsol nvecserial su
 find_package(NLopt REQUIRED)
 find_package(yaml-cpp REQUIRED)
 find_package(nlohmann_json REQUIRED)
+find_package(tinyxml2 REQUIRED)
+find_package(urdfdom REQUIRED)
 find_package(CLI11 REQUIRED)
 find_package(fmt REQUIRED)
 if(KINGPIN_TESTS)
