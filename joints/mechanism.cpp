@@ -132,12 +132,27 @@ class Maker {
       mechanism::CompileElimination(
           model, {mechanism_.start.data(), static_cast<size_t>(model.positions)});
     } catch (const std::invalid_argument& error) {
-      Fail({}, "bodies", error.what(), "a mass on every link that moves");
+      FailForInertia(error.what());
     }
     return std::move(mechanism_);
   }
 
  private:
+  // The message names the link: that of the joint's child, or one of its chain ("NAME 2").
+  [[noreturn]] void FailForInertia(const std::string& message) const {
+    const JointDescription* culprit = nullptr;
+    for (const JointDescription* joint : descriptions_) {
+      for (const char* end : {"'", " "}) {
+        if (message.find(fmt::format("'{}{}", joint->child.body, end)) != std::string::npos) {
+          culprit = joint;
+        }
+      }
+    }
+    Fail(culprit ? culprit->source : Source{},
+         culprit ? fmt::format("joints.{}", culprit->name) : "bodies", message,
+         "a mass on every link that moves");
+  }
+
   void CheckNames() {
     std::map<std::string, const Source*, std::less<>> seen;
     const auto add = [&](const std::string& list, const std::string& name, const Source& source) {

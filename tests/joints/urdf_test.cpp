@@ -240,7 +240,7 @@ TEST_P(UrdfTree, LinkMotionsAreDerivativesOfPoses) {
   const TreeEvaluation e = c.Evaluate();
   const TreeEvaluation before = c.After(-kStep, c.a), after = c.After(kStep, c.a);
   for (size_t f = 0; f < c.frames.size(); ++f) {
-    const auto rate = [&](const Vector3<double> FrameMotion::*member) {
+    const auto rate = [&](const Vector3<double> FrameMotion::*member) -> Eigen::Vector3d {
       return (ToEigen(after.frames[f].*member) - ToEigen(before.frames[f].*member)) / (2 * kStep);
     };
     EXPECT_LT((rate(&FrameMotion::v) - ToEigen(e.frames[f].acc)).norm(), kDifferences) << f;
@@ -524,8 +524,10 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         Wrong{"Empty", "", "f.urdf: found a file without content, expected a URDF file (XML)"},
         Wrong{"NoXml", "hello", "found"},
-        Wrong{"Truncated", "<robot name='r'>\n<link name='a'>\n",
+        Wrong{"WronglyClosed", "<robot name='r'>\n<link name='a'></lonk></robot>",
               "f.urdf:2: found an element that is not closed, or closed by another name"},
+        Wrong{"Truncated", "<robot name='r'>\n<link name='a'>\n",
+              "f.urdf:2: found a file that ends too early, expected a URDF file (XML)"},
         Wrong{"CutInAnAttribute", "<robot name='r'>\n<link name='a", "f.urdf:2: found"},
         Wrong{"OtherRoot", "<sdf/>", "f.urdf:1: found <sdf>, expected <robot>"},
         Wrong{"TwoRobots", "<robot/>\n<robot/>",
@@ -561,9 +563,10 @@ INSTANTIATE_TEST_SUITE_P(
               "f.urdf:5: joint[k].child: found 'b', which joint 'j' carries already"},
         Wrong{"TwoRoots", Chain(""), "f.urdf:3: link[b]: found a second root beside 'a'"},
         Wrong{"Cycle",
-              Chain("<link name='c'/>" + JointAB("").replace(34, 1, "c") +
+              Chain("<link name='c'/><joint name='j' type='fixed'><parent link='c'/><child "
+                    "link='b'/></joint>"
                     "\n<joint name='k' type='fixed'><parent link='b'/><child link='c'/></joint>"),
-              "a cycle of joints ("},
+              "f.urdf:5: joint[k]: found a cycle of joints (c -> b -> c), expected a tree"},
         Wrong{"OwnParent",
               Chain("<joint name='j' type='fixed'><parent link='b'/><child link='b'/></joint>"),
               "f.urdf:4: joint[j]: found a cycle of joints (b -> b), expected a tree"},
@@ -619,7 +622,8 @@ INSTANTIATE_TEST_SUITE_P(
               Chain(JointAB(""), Inertial(1, "0 0 0", "0 0 0", {-0.1, 0, 0, 0.1, 0, 0.1})),
               "bodies.b.inertia: found principal moments"},
         Wrong{"MovableWithoutInertia", Chain(JointAB(""), " "),
-              "'b' has inertia along its coordinate 1"},
+              "f.urdf:4: joints.j: found nothing that link 'b' carries has inertia along its "
+              "coordinate 0"},
         Wrong{"MimicsNobody", Chain(JointAB("<mimic joint='k'/>")),
               "joint[j].mimic: found 'k', expected the name of a joint"},
         Wrong{"MimicsItself", Chain(JointAB("<mimic joint='j'/>")),
