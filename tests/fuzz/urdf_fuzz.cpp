@@ -1,5 +1,5 @@
-// Any text, read as URDF and put together with a fixed and with a floating base: ends in a mechanism
-// or in an InputError that names the file, never in a crash, a hang or another exception.
+// Any text, read as URDF and put together with a fixed and with a floating base: ends in a
+// mechanism or in an InputError that names the file, never in a crash, a hang or another exception.
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>

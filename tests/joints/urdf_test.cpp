@@ -623,7 +623,7 @@ INSTANTIATE_TEST_SUITE_P(
               "bodies.b.inertia: found principal moments"},
         Wrong{"MovableWithoutInertia", Chain(JointAB(""), " "),
               "f.urdf:4: joints.j: found nothing that link 'b' carries has inertia along its "
-              "coordinate 0"},
+              "coordinate 1"},
         Wrong{"MimicsNobody", Chain(JointAB("<mimic joint='k'/>")),
               "joint[j].mimic: found 'k', expected the name of a joint"},
         Wrong{"MimicsItself", Chain(JointAB("<mimic joint='j'/>")),
