@@ -125,8 +125,9 @@ std::optional<InertiaProblem> FindInertiaProblem(const RigidInertia& inertia) {
   const Eigen::Vector3d principal = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(
                                         MakeTensor(inertia.central), Eigen::EigenvaluesOnly)
                                         .eigenvalues();
-  // input is rounded to some digits: a thin rod may miss the triangle inequality by that much
-  const double slack = 1e-9 * std::abs(principal[2]);
+  // input is printed with five digits or so: a thin body may miss the triangle inequality by that
+  // much
+  const double slack = 1e-4 * std::abs(principal[2]);
   if (principal[0] < -slack || principal[0] + principal[1] < principal[2] - slack) {
     return InertiaProblem{
         "inertia",
