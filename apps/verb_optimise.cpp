@@ -39,12 +39,12 @@ void CheckStage(const study::Case& c, const std::string& name, const std::string
 
 void RunOptimiseVerb(const std::string& file, const std::string& case_name,
                      const std::string& stage, const CommonOptions& options) {
+  CatchInterrupt();
   io::InputRecord record;
   study::StudyDefinition definition = study::ReadStudy(file, MakeReadOptions(options), &record);
   if (options.seed) definition.seed = *options.seed;
   const study::Case& c = FindCase(definition, case_name, file);
   CheckStage(c, stage, file);
-  CatchInterrupt();
   io::Progress progress(io::IsProgressWanted(options.quiet), 2);
   progress.Start(c.name, 0);
   study::RunOptions run;

@@ -50,13 +50,13 @@ void WriteSignals(const study::StudyResult& result, const study::StudyDetails& d
 void RunStudyVerb(const std::string& file, const CommonOptions& options) {
   const std::filesystem::path input =
       file.empty() ? SourceRoot() / "examples" / "c_segment" : std::filesystem::path(file);
+  CatchInterrupt();
   io::InputRecord record;
   study::StudyDefinition definition = study::ReadStudy(input, MakeReadOptions(options), &record);
   if (options.seed) definition.seed = *options.seed;
   io::RunManifest manifest = MakeManifest(options, record);
   io::ResultDirectory results(ResultPath("study", options, input), "study");
 
-  CatchInterrupt();
   io::Progress progress(io::IsProgressWanted(options.quiet), 2);
   study::RunOptions run;
   run.threads = options.threads;

@@ -134,7 +134,7 @@ TEST_F(Program, CtrlCEndsAnOptimisationWithStatusOneAndKeepsWhatIsThere) {
                                   " -o kept.json --set cases[0].stages[0].algorithm=multistart"
                                   " --set cases[0].stages[0].max_evaluations=0"
                                   " --set cases[0].stages[0].random_starts=1000",
-                              "timeout --preserve-status --signal=INT 0.5");
+                              "timeout --preserve-status --signal=INT 2");
   EXPECT_EQ(outcome.status, 1);
   EXPECT_THAT(outcome.errors,
               HasSubstr("kingpin: stopped by Ctrl-C; what was finished is kept in kept.json"));
