@@ -148,7 +148,12 @@ class Adder {
 
   template <class Law>
   void AddLaw(const PlaceDescription& place, const Law& law) {
-    std::visit([&](const auto& where) { AddElement(LawAtPlace{MakePlace(where), law}); }, place);
+    std::visit(
+        [&](const auto& where) {
+          const auto made = MakePlace(where);
+          AddElement(LawAtPlace<std::remove_const_t<decltype(made)>, Law>{made, law});
+        },
+        place);
   }
 
   void AddForce(const SpringDescription& spring) {

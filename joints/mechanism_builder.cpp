@@ -6,9 +6,7 @@ namespace kingpin::joints {
 
 namespace {
 
-Source MakeSource(const std::source_location& where) {
-  return {where.file_name(), static_cast<int>(where.line())};
-}
+Source MakeSource(const CodePlace& where) { return {where.file, where.line}; }
 
 }  // namespace
 

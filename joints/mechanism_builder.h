@@ -1,7 +1,6 @@
 #pragma once
 
 #include <deque>
-#include <source_location>
 #include <string>
 #include <vector>
 
@@ -17,6 +16,17 @@ inline FrameDescription At(std::string body, const Vector3<double>& point = {},
   return {std::move(body), {R, point}};
 }
 
+/// Where in the C++ source something is called: std::source_location, which Debian 12's clang does
+/// not have.
+struct CodePlace {
+  const char* file = "";
+  int line = 0;
+  static constexpr CodePlace current(const char* file = __builtin_FILE(),
+                                     int line = __builtin_LINE()) {
+    return {file, line};
+  }
+};
+
 /// Builds a mechanism in C++:
 ///
 ///   MechanismBuilder m("pendulum on a spring");
@@ -30,7 +40,7 @@ inline FrameDescription At(std::string body, const Vector3<double>& point = {},
 /// Every Add... returns the new entry for its further values; it stays valid as long as the
 /// builder. Errors found by Make name the source line that added the culprit.
 class MechanismBuilder {
-  using Where = std::source_location;
+  using Where = CodePlace;
 
  public:
   class Joint {

@@ -73,7 +73,7 @@ ScalarLaw::ScalarLaw(const LawDescription& description, const Source& source,
 
 ScalarLaw MakeDampingLaw(const LawDescription& description, const Source& source,
                          const std::string& key) {
-  const ScalarLaw law(description, source, key);
+  ScalarLaw law(description, source, key);
   constexpr int kSamples = 16;
   const auto& points = description.points;
   double largest = 0;

@@ -39,7 +39,7 @@ void FailOutput(const std::filesystem::path& path, std::string_view doing, int r
                                 .suggestion = suggestion});
 }
 
-OutputFile::OutputFile(std::filesystem::path path) : OutputFile(path, path) {}
+OutputFile::OutputFile(const std::filesystem::path& path) : OutputFile(path, path) {}
 
 OutputFile::OutputFile(const std::filesystem::path& path, std::filesystem::path shown)
     : shown_(std::move(shown)) {

@@ -14,7 +14,7 @@ namespace kingpin::io {
 /// or quota is full) and RunError where the device fails.
 class OutputFile {
  public:
-  explicit OutputFile(std::filesystem::path path);
+  explicit OutputFile(const std::filesystem::path& path);
   /// Messages name `shown` instead: the place the file will be moved to.
   OutputFile(const std::filesystem::path& path, std::filesystem::path shown);
   ~OutputFile();

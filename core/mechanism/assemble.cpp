@@ -104,7 +104,7 @@ Assembly AssembleVelocities(const Model& model, std::span<const double> rate,
   }
   for (const Eigen::MatrixXd* gradients : {&free, &J}) {
     velocity += gradients->completeOrthogonalDecomposition().solve(wanted - J * velocity);
-    const Assembly assembly = Judge(J * velocity - wanted, tolerance);
+    Assembly assembly = Judge(J * velocity - wanted, tolerance);
     if (assembly.closed) return assembly;
   }
   return Judge(J * velocity - wanted, tolerance);

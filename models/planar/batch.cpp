@@ -191,7 +191,7 @@ void BatchWorkspace::Run(std::span<const Parameters<T>> designs, const Excitatio
       valid[lane] = outcome.failed ? failed_sample[lane] : samples;
     }
     // From sample by sample to design by design, in blocks that stay in the first-level cache.
-    const size_t rows = kBatchSignals * kPartCount;
+    const size_t rows = static_cast<size_t>(kBatchSignals) * kPartCount;
     const size_t stride = rows * static_cast<size_t>(lanes);
     constexpr int kBlock = 16;
     for (int begin = 0; begin < samples; begin += kBlock) {
