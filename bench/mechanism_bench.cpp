@@ -55,3 +55,5 @@ BENCHMARK_CAPTURE(BM_Accelerations, humanoid, MakeHumanoid)->Arg(1)->Arg(8);
 
 }  // namespace
 }  // namespace kingpin::mechanism
+
+BENCHMARK_MAIN();

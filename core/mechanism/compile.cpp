@@ -162,6 +162,7 @@ void CompileElimination(Model& model, std::span<const double> q) {
   model.pattern = math::SparseLdltPattern(order, entries);
   model.pivot_limits.assign(n, 0);
   SetSlots(model);
+  if (n == 0) return;  // everything is fixed to the world
 
   std::vector<Eigen::MatrixXd> samples;
   Eigen::VectorXd scale;

@@ -25,7 +25,8 @@ EliminationOrder ChooseEliminationOrder(int coordinates,
 
   // The largest pivots that rows can have: the diagonal of Dᵀ M⁻¹ D.
   std::vector<std::vector<double>> full(work.size(), std::vector<double>(n, 0));
-  for (size_t s = 0; s < work.size(); ++s) {
+  const bool coupled = coordinates > 0 && n > coordinates;  // no empty matrix is taken apart
+  for (size_t s = 0; coupled && s < work.size(); ++s) {
     const Eigen::MatrixXd D = work[s].topRightCorner(coordinates, n - coordinates);
     const Eigen::MatrixXd X = work[s].topLeftCorner(coordinates, coordinates).ldlt().solve(D);
     for (int r = coordinates; r < n; ++r) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace kingpin::optimisation {
 namespace {
@@ -34,8 +35,8 @@ void Batch::Resize(const Problem& problem, std::size_t points_count, bool gradie
   equality_gradients.resize(equalities.size() * width);
 }
 
-DirectEvaluator::DirectEvaluator(const Problem& problem, const Control& control)
-    : problem_(problem), control_(control), best_(kInfinity) {}
+DirectEvaluator::DirectEvaluator(const Problem& problem, Control control)
+    : problem_(problem), control_(std::move(control)), best_(kInfinity) {}
 
 void DirectEvaluator::Evaluate(Batch& batch) {
   if (control_.cancelled && control_.cancelled()) cancelled_ = true;

@@ -43,7 +43,8 @@ class Evaluator {
 /// and the cancellation.
 class DirectEvaluator : public Evaluator {
  public:
-  DirectEvaluator(const Problem& problem, const Control& control);
+  /// Keeps a reference to `problem`, which has to outlive it, and a copy of `control`.
+  DirectEvaluator(const Problem& problem, Control control);
   void Evaluate(Batch& batch) override;
 
   long evaluations() const { return evaluations_; }
@@ -60,7 +61,7 @@ class DirectEvaluator : public Evaluator {
   void Record(const Batch& batch);
 
   const Problem& problem_;
-  const Control& control_;
+  const Control control_;
   Batch stencil_;
   long evaluations_ = 0;
   long gradient_evaluations_ = 0;
