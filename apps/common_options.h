@@ -42,5 +42,6 @@ void AddVerbSchema(CLI::App& app, CommonOptions& options);
 void AddVerbSimulate(CLI::App& app, CommonOptions& options);
 void AddVerbStudy(CLI::App& app, CommonOptions& options);
 void AddVerbUrdf(CLI::App& app, CommonOptions& options);
+void AddVerbValidate(CLI::App& app, CommonOptions& options);
 
 }  // namespace kingpin::apps

@@ -98,6 +98,7 @@ int main(int argc, char** argv) {
   apps::AddVerbUrdf(app, options);
   apps::AddVerbCheck(app, options);
   apps::AddVerbSchema(app, options);
+  apps::AddVerbValidate(app, options);
   const CLI::App* verb = nullptr;
   try {
     verb = FindVerb(app, argc, argv);

@@ -1,7 +1,9 @@
 #include "core/mechanism/accelerations.h"
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <stdexcept>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -33,31 +35,43 @@ Eigen::MatrixXd ExpandMatrix(const Model& model, const Workspace<double>& w) {
 }
 
 // At a singular position rows depend on each other. Accelerations are unique as long as the mass
-// matrix is regular; among the reactions that give them, the smallest are taken.
+// matrix is regular; among the reactions that give them, the smallest are taken. Rows that are out
+// stay out: they only cost time.
 void SolveSingular(const Model& model, const Eigen::MatrixXd& K, const Eigen::VectorXd& right,
-                   std::span<double> acceleration, std::span<double> reaction) {
-  const int nv = model.velocities, rows = model.rows;
+                   std::span<const double> active, std::span<double> acceleration,
+                   std::span<double> reaction) {
+  const int nv = model.velocities;
+  std::vector<int> rows;
+  for (int r = 0; r < model.rows; ++r) {
+    if (active[r] != 0) rows.push_back(r);
+  }
+  const int count = static_cast<int>(rows.size());
+  Eigen::MatrixXd B(nv, count);
+  Eigen::VectorXd c(count);
+  for (int k = 0; k < count; ++k) {
+    B.col(k) = K.col(nv + rows[k]).head(nv);
+    c[k] = right[nv + rows[k]];
+  }
+  // with M = L Lᵀ and B = L⁻¹D:  y = Lᵀ q̈ meets Bᵀ y = c nearest to L⁻¹F
   const Eigen::LLT<Eigen::MatrixXd> mass(K.topLeftCorner(nv, nv));
-  const Eigen::MatrixXd D = K.topRightCorner(nv, rows);
-  // with M = L Lᵀ:  y = Lᵀ q̈ meets (L⁻¹D)ᵀ y = c nearest to L⁻¹F
-  const Eigen::MatrixXd B = mass.matrixL().solve(D);
+  mass.matrixL().solveInPlace(B);
   const Eigen::VectorXd free = mass.matrixL().solve(right.head(nv));
   const Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> decomposition(B.transpose());
-  const Eigen::VectorXd c = right.tail(rows);
   const Eigen::VectorXd correction = decomposition.solve(c - B.transpose() * free);
   const Eigen::VectorXd y = free + correction;
-  const double miss = (B.transpose() * y - c).norm();
-  if (!(miss <= 1e-6 * (c.norm() + (B.transpose() * free).norm()) + 1e-300)) {
+  const Eigen::VectorXd miss = B.transpose() * y - c;
+  if (!(miss.norm() <= 1e-6 * (c.norm() + (B.transpose() * free).norm()) + 1e-300)) {
     int worst = 0;
-    (B.transpose() * y - c).cwiseAbs().maxCoeff(&worst);
+    miss.cwiseAbs().maxCoeff(&worst);
     throw std::runtime_error(fmt::format(
         "the constraints contradict each other in this position: row '{}' cannot be met",
-        model.row_names[worst]));
+        model.row_names[rows[worst]]));
   }
   Eigen::Map<Eigen::VectorXd>(acceleration.data(), nv) = mass.matrixU().solve(y);
   // M q̈ - D R = F:  B R = y - L⁻¹F
-  Eigen::Map<Eigen::VectorXd>(reaction.data(), rows) =
-      B.completeOrthogonalDecomposition().solve(correction);
+  const Eigen::VectorXd R = decomposition.transpose().solve(correction);
+  std::fill(reaction.begin(), reaction.end(), 0.0);
+  for (int k = 0; k < count; ++k) reaction[rows[k]] = R[k];
 }
 
 }  // namespace
@@ -66,6 +80,7 @@ void FactoriseAndSolve(const Model& model, Workspace<double>& w, std::span<doubl
                        std::span<double> reaction) {
   const int nv = model.velocities;
   w.kept_k = w.k;
+  w.singular = false;
   model.pattern.Factorise(w.k.data());
   if (!PivotsAreSafe(model, w)) {
     Eigen::VectorXd right(nv + model.rows);
@@ -73,13 +88,14 @@ void FactoriseAndSolve(const Model& model, Workspace<double>& w, std::span<doubl
       right[i] = w.kept_k[model.pattern.GetRightSideSlot(i)];
     }
     w.k = w.kept_k;
+    w.singular = true;
     const Eigen::MatrixXd K = ExpandMatrix(model, w);
     if (!K.allFinite() || !right.allFinite()) {
       throw std::runtime_error(
           "the equations of motion hold a number that is not finite: positions, velocities or "
           "forces have run away; smaller steps or less stiff forces may help");
     }
-    SolveSingular(model, K, right, acceleration, reaction);
+    SolveSingular(model, K, right, w.active, acceleration, reaction);
     return;
   }
   model.pattern.BackSubstitute(w.k.data(), w.x.data());

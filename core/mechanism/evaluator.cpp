@@ -10,6 +10,12 @@
 
 namespace kingpin::mechanism {
 
+namespace {
+
+constexpr double kSingularTolerance = 1e-10;  // of constraints near singular positions [m, rad]
+
+}  // namespace
+
 Evaluator::Evaluator(const System& system)
     : system_(system),
       w_(system.model),
@@ -27,7 +33,8 @@ Evaluator::Evaluator(const System& system)
       reaction_(system.model.rows),
       residual_(system.model.rows),
       correction_(system.model.velocities),
-      none_(system.model.rows) {
+      none_(system.model.rows),
+      nearest_(system.size()) {
   for (const Friction& friction : system.friction) {
     size_t index = 0;
     while (system.model.linear[index].row != friction.row) ++index;
@@ -52,6 +59,17 @@ void Evaluator::UpdateKinematics(double time, std::span<const double> y) {
 }
 
 void Evaluator::CalcRates(double time, std::span<const double> y, std::span<double> rate) {
+  CalcRatesAt(time, y, rate);
+  if (!w_.singular) return;
+  // Near a singular position what y leaves open in the constraints, rounding included, enters the
+  // accelerations magnified by the inverse cube of the distance to it. On the constraints it is the
+  // inverse square, of rounding only.
+  std::copy(y.begin(), y.end(), nearest_.begin());
+  Project(time, nearest_, kSingularTolerance, 0);
+  CalcRatesAt(time, nearest_, rate);
+}
+
+void Evaluator::CalcRatesAt(double time, std::span<const double> y, std::span<double> rate) {
   const Model& model = system_.model;
   const double* q = y.data();
   const double* v = q + model.positions;
@@ -336,12 +354,19 @@ void Evaluator::Project(double time, std::span<double> y, double position_tolera
                         double velocity_tolerance) {
   const Model& model = system_.model;
   constexpr int kIterations = 20;
+  // Below this nothing is gained. Above it one correction is made even if the tolerance is met:
+  // near a singular position, what is left open grows with the inverse square of the distance to
+  // it, and would carry the mechanism onto another branch.
+  constexpr double kRounding = 1e-15;
   double* q = y.data();
   double* v = q + model.positions;
   NormaliseQuaternions(model, {q, static_cast<size_t>(model.positions)});
   if (model.rows == 0) return;
   UpdateKinematics(time, y);
-  for (int iteration = 0; CalcPositionResiduals(q) > position_tolerance; ++iteration) {
+  for (int iteration = 0;
+       CalcPositionResiduals(q) >
+       (iteration == 0 ? std::min(kRounding, position_tolerance) : position_tolerance);
+       ++iteration) {
     if (iteration == kIterations) {
       const int worst = FindWorstRow();
       throw std::runtime_error(fmt::format(

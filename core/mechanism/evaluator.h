@@ -60,9 +60,10 @@ class Evaluator {
   };
   Residuals CalcResiduals(double time, std::span<const double> y);
 
-  /// Moves q, by the least kinetic-energy distance, until |Φ| <= position_tolerance, corrects v
-  /// once if |Dᵀv - ṡ| > velocity_tolerance (which leaves rounding), and brings quaternions back to
-  /// unit length. Rows that are not active keep what they have.
+  /// Moves q, by the least kinetic-energy distance, until |Φ| <= position_tolerance, at least once
+  /// unless |Φ| is rounding already; corrects v once if |Dᵀv - ṡ| > velocity_tolerance (which
+  /// leaves rounding), and brings quaternions back to unit length. Rows that are not active keep
+  /// what they have.
   /// @throws std::runtime_error if that fails; the message names the worst row
   void Project(double time, std::span<double> y, double position_tolerance,
                double velocity_tolerance);
@@ -71,6 +72,7 @@ class Evaluator {
   Energy CalcEnergy(double time, std::span<const double> y);
 
  private:
+  void CalcRatesAt(double time, std::span<const double> y, std::span<double> rate);
   void SolveWithFriction();
   double CalcNormalForce(const Friction& friction);
   double CalcStaticLimit(const Friction& friction, double normal) const;
@@ -96,6 +98,7 @@ class Evaluator {
   std::vector<double> applied_generalised_;
   std::vector<Motion<double>> link_acceleration_;
   std::vector<double> acceleration_, reaction_, residual_, correction_, none_;
+  std::vector<double> nearest_;  // y moved onto the constraints
 };
 
 }  // namespace kingpin::mechanism

@@ -37,6 +37,7 @@ struct Workspace {
   std::vector<S> kept_k;       ///< the equations, for when the pivots turn out unsafe
   std::vector<S>
       active;  ///< per row: 1, or 0 for a row that is out (redundant, or friction that slides)
+  bool singular = false;  ///< the last equations were near a singular position, solved densely
 
   /// Where the reference point is in the world [m].
   Vector3<S> reference;

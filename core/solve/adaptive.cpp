@@ -41,7 +41,7 @@ struct Callbacks {
   int Project(double time, N_Vector y) {
     try {
       evaluator->Project(time, {N_VGetArrayPointer(y), static_cast<size_t>(N_VGetLength(y))},
-                         options.projection_tolerance, options.projection_tolerance);
+                         options.projection_tolerance, 0);
     } catch (const std::runtime_error& error) {
       failure = error.what();
       return 1;

@@ -36,7 +36,7 @@ class RungeKutta4Stepper : public Stepper {
   void Redo(double time, double end, std::span<double> y) override {
     method_.Step(evaluator_, time, end - time, y);
     CheckFinite(end, y);
-    evaluator_.Project(end, y, options_.projection_tolerance, options_.projection_tolerance);
+    evaluator_.Project(end, y, options_.projection_tolerance, 0);
   }
 
  private:
@@ -65,7 +65,7 @@ class RosenbrockStepper : public Stepper {
   void Redo(double time, double end, std::span<double> y) override {
     method_.Step(evaluator_, time, end - time, y);
     CheckFinite(end, y);
-    evaluator_.Project(end, y, options_.projection_tolerance, options_.projection_tolerance);
+    evaluator_.Project(end, y, options_.projection_tolerance, 0);
   }
   void Restart() override { age_ = -1; }
 
