@@ -128,21 +128,4 @@ BatchGradient MakeBatchGradient(
       };
 }
 
-std::vector<LinearConstraint> MakeNonDecreasing(const Problem& problem,
-                                                std::span<const std::size_t> nodes,
-                                                double least_step) {
-  std::vector<LinearConstraint> rows;
-  for (std::size_t k = 0; k + 1 < nodes.size(); ++k) {
-    LinearConstraint row;
-    row.name = fmt::format("{} <= {}", problem.variables[nodes[k]].name,
-                           problem.variables[nodes[k + 1]].name);
-    row.coefficients.assign(problem.size(), 0.0);
-    row.coefficients[nodes[k]] = 1;
-    row.coefficients[nodes[k + 1]] = -1;
-    row.bound = -least_step;
-    rows.push_back(std::move(row));
-  }
-  return rows;
-}
-
 }  // namespace kingpin::optimisation

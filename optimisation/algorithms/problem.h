@@ -78,11 +78,4 @@ BatchGradient MakeBatchGradient(
     std::size_t variables,
     std::function<double(std::span<const double> x, std::span<double> gradient)> function);
 
-/// Shape condition of a curve whose node values are the variables `nodes`, in the order of the
-/// abscissa: it never falls, y_i - y_(i+1) <= -least_step. Add the result to Problem::linear. (An
-/// odd curve has one variable for x and -x, so it needs no condition.)
-std::vector<LinearConstraint> MakeNonDecreasing(const Problem& problem,
-                                                std::span<const std::size_t> nodes,
-                                                double least_step = 0);
-
 }  // namespace kingpin::optimisation

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "core/math/quaternion.h"
+#include "tests/floating_point_traps.h"
 
 namespace kingpin::bodies {
 namespace {
@@ -83,6 +84,7 @@ TEST(RigidInertia, PrincipalMomentsComeBack) {
 }
 
 TEST(RigidInertia, ProblemsAreFound) {
+  const WithoutTraps nan_is_the_subject;
   EXPECT_FALSE(FindInertiaProblem(MakeRod(1, 2)));
   EXPECT_FALSE(FindInertiaProblem({}));
   EXPECT_EQ(FindInertiaProblem({-1, {}, {}})->part, "mass");

@@ -5,6 +5,7 @@
 
 #include "core/io/error.h"
 #include "joints/add_forces.h"
+#include "tests/floating_point_traps.h"
 #include "tests/joints/force_check.h"
 
 namespace kingpin::joints {
@@ -67,6 +68,7 @@ TEST(ForceErrors, PlacesThatCannotBe) {
 }
 
 TEST(ForceErrors, LawsThatCannotBe) {
+  const WithoutTraps nan_is_the_subject;
   const auto law = [](LawDescription stiffness) {
     SpringDescription spring = MakeSpring();
     spring.stiffness = std::move(stiffness);

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "core/io/error.h"
+#include "tests/floating_point_traps.h"
 
 namespace kingpin::io {
 namespace {
@@ -55,6 +56,7 @@ TEST(Csv, MissingChannelListsTheOnesThere) {
 }
 
 TEST(Csv, WrittenSignalsReadBackExactly) {
+  const WithoutTraps signalling_nans_are_drawn;
   std::mt19937_64 random(3);
   Signals signals;
   signals.channels.resize(3);

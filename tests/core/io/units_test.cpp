@@ -12,6 +12,7 @@
 #include <gtest/gtest.h>
 
 #include "core/io/error.h"
+#include "tests/floating_point_traps.h"
 
 namespace kingpin::io {
 namespace {
@@ -121,6 +122,7 @@ TEST(Units, DeepParenthesesEndInAMessage) {
 // Property: any finite double in any unit reads back. For SI units exactly, as the digits are the
 // shortest that do; elsewhere within the two roundings of value · numerator / denominator.
 TEST(Units, FormattedQuantitiesReadBack) {
+  const WithoutTraps signalling_nans_are_drawn;
   const std::vector<std::string> units = {
       "m",  "mm",      "km",      "kg",   "g",   "s",   "ms",  "rad", "deg",   "rev",    "N",
       "kN", "N m/rad", "N m/deg", "km/h", "rpm", "Hz",  "kHz", "bar", "l/min", "kg m^2", "m/s^1.75",
@@ -147,6 +149,7 @@ TEST(Units, FormattedQuantitiesReadBack) {
 }
 
 TEST(Units, FormattingAnSiValueReadsBackExactly) {
+  const WithoutTraps signalling_nans_are_drawn;
   std::mt19937_64 random(7);
   for (int i = 0; i < 20000; ++i) {
     const double value = std::bit_cast<double>(static_cast<std::uint64_t>(random()));

@@ -9,6 +9,7 @@
 
 #include "core/math/dual.h"
 #include "core/math/pack.h"
+#include "tests/floating_point_traps.h"
 
 namespace kingpin::math {
 namespace {
@@ -210,6 +211,7 @@ TEST(SplinePiece, FollowsARandomWalkOnTheSpline) {
 }
 
 TEST(SplinePiece, KeepsNanToItsLaneAndRecovers) {
+  const WithoutTraps nan_is_the_subject;
   using Lanes = Pack<double, 2, isa::Portable>;
   SplineSegments<Lanes, 16> none{};
   SplinePiece<Lanes> piece;

@@ -106,8 +106,9 @@ TEST_P(EveryAlgorithm, KeepsACurveMonotone) {
     for (std::size_t i = 0; i < 4; ++i) sum += Square(x[i] - wanted[i]);
     return sum;
   });
-  const std::vector<std::size_t> nodes = {0, 1, 2, 3};
-  problem.linear = MakeNonDecreasing(problem, nodes);
+  problem.linear = {{"x1 <= x2", {1, -1, 0, 0}, 0, false},
+                    {"x2 <= x3", {0, 1, -1, 0}, 0, false},
+                    {"x3 <= x4", {0, 0, 1, -1}, 0, false}};
   const Result result = Minimise(problem, With(GetParam()));
   EXPECT_NEAR(result.value, 1.02, 1e-8) << result.status;
   for (std::size_t i = 0; i < 3; ++i) EXPECT_LE(result.x[i], result.x[i + 1]);  // exactly
