@@ -6,6 +6,7 @@
 
 #include "apps/common_options.h"
 #include "apps/input_kinds.h"
+#include "apps/mechanism_report.h"
 #include "apps/run_support.h"
 #include "core/io/json_text.h"
 #include "joints/mechanism_run.h"
@@ -17,9 +18,9 @@ namespace {
 
 // Reads with `read`, runs with `run` and writes what came out: scenarios of the planar model and
 // mechanisms alike.
-template <class Read, class Run>
+template <class Read, class Run, class Further>
 void RunAndWrite(const std::string& file, const CommonOptions& options, const Read& read,
-                 const Run& run) {
+                 const Run& run, const Further& add_further) {
   io::InputRecord record;
   const auto input = read(file, MakeReadOptions(options), &record);
   io::RunManifest manifest = MakeManifest(options, record);
@@ -27,6 +28,7 @@ void RunAndWrite(const std::string& file, const CommonOptions& options, const Re
   const auto result = run(input);
   results.WriteText("signals.csv", io::FormatSignals(result.signals));
   results.WriteJson("summary.json", result.summary);
+  add_further(result, results);
   manifest.solver = result.statistics;
   manifest.duration =
       std::chrono::duration<double>(std::chrono::system_clock::now() - manifest.start).count();
@@ -41,9 +43,13 @@ void RunAndWrite(const std::string& file, const CommonOptions& options, const Re
 
 void RunSimulateVerb(const std::string& file, const CommonOptions& options) {
   if (IsMechanismFile(file)) {
-    RunAndWrite(file, options, joints::ReadMechanismFile, joints::RunMechanism);
+    RunAndWrite(file, options, joints::ReadMechanismFile, joints::RunMechanism,
+                [](const joints::MechanismRun& run, io::ResultDirectory& results) {
+                  results.WriteText("report.html", MakeMechanismReport(run));
+                });
   } else {
-    RunAndWrite(file, options, study::ReadScenario, study::RunScenario);
+    RunAndWrite(file, options, study::ReadScenario, study::RunScenario,
+                [](const auto&, io::ResultDirectory&) {});
   }
 }
 
@@ -51,7 +57,9 @@ void RunSimulateVerb(const std::string& file, const CommonOptions& options) {
 
 void AddVerbSimulate(CLI::App& app, CommonOptions& options) {
   CLI::App* verb = app.add_subcommand(
-      "simulate", "One scenario or mechanism: signals.csv, summary.json, manifest.json");
+      "simulate",
+      "One scenario or mechanism: signals.csv, summary.json, manifest.json, of a mechanism "
+      "report.html, too");
   const auto file = std::make_shared<std::string>();
   verb->add_option("FILE", *file, "A scenario or mechanism file, or a folder with scenario.yaml")
       ->required();

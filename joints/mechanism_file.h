@@ -17,6 +17,22 @@ struct MechanismFile {
   std::vector<ForceDescription> forces;
   bool start_at_rest = false;  ///< find the equilibrium first
   solve::SimulationOptions simulation;
+  /// What pictures show, by name of a joint or coordinate, of a closure, coupling, motion or row;
+  /// empty: what is not inside a beam.
+  struct Report {
+    std::vector<std::string> coordinates, reactions;
+    Source coordinates_source, reactions_source;
+  };
+  Report report;
+  /// A frequency response from a motor or a force on a body to a channel of signals.csv.
+  struct Response {
+    std::string name, from, to;
+    double low = 0.1, high = 100;  ///< [Hz]
+    int points = 200;
+    Source source;
+  };
+  std::vector<Response> responses;
+  std::vector<std::string> beam_joints;  ///< those inside beams, their roots left out
 };
 
 /// Reads a YAML file of kind `mechanism` (docs/formats.md).

@@ -2,69 +2,22 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <stdexcept>
 
 #include <fmt/format.h>
 
 #include "core/io/error.h"
+#include "core/mechanism/kinematics.h"
 #include "core/solve/linearise.h"
 #include "core/solve/null_space.h"
+#include "joints/force_place.h"
+#include "joints/mechanism_linear.h"
+#include "joints/mechanism_names.h"
 
 namespace kingpin::joints {
 
 namespace {
-
-struct Coordinate {
-  std::string name;
-  bool turns = false;
-};
-
-// Names and kinds of the coordinates, as q or v has them.
-std::vector<Coordinate> ListCoordinates(const Mechanism& mechanism, bool velocities) {
-  std::vector<Coordinate> list;
-  for (const Mechanism::JointPlace& joint : mechanism.joints) {
-    const auto add = [&](const char* suffix, bool turns) {
-      list.push_back({*suffix ? joint.name + '.' + suffix : joint.name, turns});
-    };
-    switch (joint.type) {
-      case JointType::kFixed:
-        break;
-      case JointType::kRevolute:
-      case JointType::kScrew:
-        add("", true);
-        break;
-      case JointType::kPrismatic:
-        add("", false);
-        break;
-      case JointType::kCylindrical:
-        add("displacement", false), add("angle", true);
-        break;
-      case JointType::kUniversal:
-        add("angle_1", true), add("angle_2", true);
-        break;
-      case JointType::kPlanar:
-        add("x", false), add("y", false), add("angle", true);
-        break;
-      case JointType::kFree:
-        add("x", false), add("y", false), add("z", false);
-        [[fallthrough]];
-      case JointType::kSpherical:
-        if (!velocities) add("quaternion_w", true);
-        for (const char* axis : {"x", "y", "z"}) {
-          add(fmt::format("{}_{}", velocities ? "angular" : "quaternion", axis).c_str(), true);
-        }
-        break;
-    }
-  }
-  return list;
-}
-
-std::string GetUnit(const Coordinate& c, int derivative) {
-  if (c.name.find("quaternion") != std::string::npos) return "1";
-  const char* length[] = {"m", "m/s", "m/s^2"};
-  const char* angle[] = {"rad", "rad/s", "rad/s^2"};
-  return c.turns ? angle[derivative] : length[derivative];
-}
 
 const char* GetMethodName(solve::Method method) {
   switch (method) {
@@ -93,24 +46,105 @@ std::vector<std::string> ListRedundantRows(const mechanism::Model& model) {
   return names;
 }
 
-// Units of a row's reaction: closures push in newton or turn in newton metre, coordinates take what
-// they are.
-std::string GetReactionUnit(const Mechanism& mechanism, int row) {
-  const std::string& name = mechanism.system.model.row_names[row];
-  const size_t dot = name.rfind('.');
-  if (dot != std::string::npos && name.compare(dot + 1, 4, "turn") == 0) return "N m";
-  for (const mechanism::LinearRow& linear : mechanism.system.model.linear) {
-    if (linear.row != row) continue;
-    const auto coordinates = ListCoordinates(mechanism, true);
-    return linear.terms.size() == 1 && coordinates[linear.terms[0].v].turns ? "N m" : "N";
+// What a stop meets over a run.
+class StopWatch {
+ public:
+  StopWatch(const MechanismFile& file, const Mechanism& mechanism) {
+    for (const ForceDescription& force : file.forces) {
+      const auto* stop = std::get_if<StopDescription>(&force);
+      if (stop == nullptr) continue;
+      Watch watch{stop->name, stop->upper ? 1.0 : -1.0, stop->limit, "m", {}};
+      if (const auto* on = std::get_if<OnCoordinate>(&stop->place)) {
+        const Mechanism::JointPlace& joint = mechanism.GetJoint(on->joint);
+        const auto coordinates = ListVelocityNames(mechanism);
+        if (coordinates[joint.v + on->coordinate].turns) watch.unit = "rad";
+        watch.place = CoordinatePlace{joint.q + on->coordinate, joint.v + on->coordinate};
+      } else if (const auto* between = std::get_if<BetweenPoints>(&stop->place)) {
+        watch.place = PointPlace{mechanism.MakeFrame(between->a), mechanism.MakeFrame(between->b)};
+      } else if (const auto* about = std::get_if<AboutAxis>(&stop->place)) {
+        watch.unit = "rad";
+        watch.place = AxisPlace{mechanism.MakeFrame(about->a), mechanism.MakeFrame(about->b)};
+      }
+      watches_.push_back(std::move(watch));
+    }
   }
-  for (const mechanism::PerpendicularClosure& c : mechanism.system.model.perpendiculars) {
-    if (c.row == row) return "N m";
+
+  void Look(const mechanism::ForceContext<double>& context) {
+    for (Watch& watch : watches_) {
+      const double x =
+          std::visit([&context](const auto& place) { return place.Calc(context).x; }, watch.place);
+      const double depth = watch.sign * (x - watch.limit);
+      if (depth > 0 && !watch.touches) {
+        if (watch.contacts++ == 0) watch.first = context.time;
+      }
+      watch.touches = depth > 0;
+      watch.deepest = std::max(watch.deepest, depth);
+    }
   }
-  return "N";
+
+  nlohmann::ordered_json MakeJson() const {
+    nlohmann::ordered_json json;
+    for (const Watch& watch : watches_) {
+      auto& entry = json[watch.name];
+      entry["contacts"] = watch.contacts;
+      if (watch.contacts > 0) entry["first"] = watch.first;
+      entry["deepest"] = watch.deepest;
+      entry["unit"] = watch.unit;
+    }
+    return json;
+  }
+  bool empty() const { return watches_.empty(); }
+
+ private:
+  struct Watch {
+    std::string name;
+    double sign = 1, limit = 0;
+    const char* unit = "m";
+    std::variant<CoordinatePlace, PointPlace, AxisPlace> place;
+    bool touches = false;
+    int contacts = 0;
+    double first = 0, deepest = 0;
+  };
+  std::vector<Watch> watches_;
+};
+
+struct ShownNames {
+  std::vector<std::string> coordinates, reactions;
+};
+
+// The channels that `report:` chooses; by default what is not inside a beam.
+ShownNames FindShownNames(const MechanismFile& file, const Mechanism& mechanism) {
+  const auto choose = [](const std::vector<std::string>& chosen,
+                         const std::vector<std::string>& names,
+                         const std::vector<std::string>& hidden, const Source& source,
+                         const char* key, const char* what) {
+    std::vector<std::string> result;
+    for (const std::string& name : chosen) {
+      for (int i : FindNamed(name, names, source, key, what)) result.push_back(names[i]);
+    }
+    if (!chosen.empty()) return result;
+    for (const std::string& name : names) {
+      const bool inside =
+          std::any_of(hidden.begin(), hidden.end(), [&name](const std::string& joint) {
+            return name == joint || name.starts_with(joint + '.');
+          });
+      if (!inside) result.push_back(name);
+    }
+    return result.empty() ? names : result;
+  };
+  return {choose(file.report.coordinates, GetNames(ListPositionNames(mechanism)), file.beam_joints,
+                 file.report.coordinates_source, "report.coordinates", "joint or coordinate"),
+          choose(file.report.reactions, mechanism.system.model.row_names, {},
+                 file.report.reactions_source, "report.reactions",
+                 "closure, coupling, motion, friction or row")};
 }
 
 }  // namespace
+
+void CheckNames(const MechanismFile& file, const Mechanism& mechanism) {
+  FindShownNames(file, mechanism);
+  CheckResponses(file, mechanism);
+}
 
 MechanismRun RunMechanism(const MechanismFile& file) {
   Mechanism mechanism;
@@ -122,23 +156,35 @@ MechanismRun RunMechanism(const MechanismFile& file) {
     throw io::RunError(error.what());
   }
   const mechanism::Model& model = mechanism.system.model;
-  const auto positions = ListCoordinates(mechanism, false),
-             velocities = ListCoordinates(mechanism, true);
+  CheckNames(file, mechanism);
+  const auto positions = ListPositionNames(mechanism), velocities = ListVelocityNames(mechanism);
 
   MechanismRun run;
   std::vector<io::Signals::Channel>& channels = run.signals.channels;
   const auto add = [&](std::string name, const std::string& unit) {
     channels.push_back({std::move(name), unit, unit, {}});
   };
-  for (const Coordinate& c : positions) add(c.name, GetUnit(c, 0));
-  for (const Coordinate& c : velocities) add(c.name + ".rate", GetUnit(c, 1));
-  for (const Coordinate& c : velocities) add(c.name + ".acceleration", GetUnit(c, 2));
+  for (const CoordinateName& c : positions) add(c.name, GetUnit(c, 0));
+  for (const CoordinateName& c : velocities) add(c.name + ".rate", GetUnit(c, 1));
+  for (const CoordinateName& c : velocities) add(c.name + ".acceleration", GetUnit(c, 2));
   for (int r = 0; r < model.rows; ++r)
     add(model.row_names[r] + ".reaction", GetReactionUnit(mechanism, r));
-  add("energy.kinetic", "J");
-  add("energy.potential", "J");
+  for (const char* part : {"kinetic", "potential", "total", "dissipated", "supplied", "balance"}) {
+    add(fmt::format("energy.{}", part), "J");
+  }
+  add("residual.position", "1");
+  add("residual.velocity", "1");
+  run.positions = model.positions;
+  run.velocities = model.velocities;
+  run.rows = model.rows;
+  const ShownNames shown = FindShownNames(file, mechanism);
+  run.shown_coordinates = shown.coordinates;
+  run.shown_reactions = shown.reactions;
 
   std::vector<double> y = mechanism.start;
+  solve::Ledger ledger;
+  StopWatch stops(file, mechanism);
+  mechanism::Workspace<double> w(model);
   const auto observe = [&](double time, std::span<const double> state,
                            mechanism::Evaluator& evaluator) {
     run.signals.time.push_back(time);
@@ -150,14 +196,30 @@ MechanismRun RunMechanism(const MechanismFile& file) {
     const mechanism::Energy energy = evaluator.CalcEnergy(time, state);
     put(energy.kinetic);
     put(energy.potential);
+    put(energy.kinetic + energy.potential);
+    put(ledger.dissipated);
+    put(ledger.supplied);
+    put(energy.kinetic + energy.potential - ledger.energy_start - ledger.supplied +
+        ledger.dissipated);
+    const auto residuals = evaluator.CalcResiduals(time, state);
+    put(residuals.position);
+    put(residuals.velocity);
+    if (!stops.empty()) {
+      mechanism::UpdatePositions(model, state.data(), w);
+      mechanism::UpdateVelocities(model, state.data() + model.positions, w);
+      stops.Look({model, time, state.data(), state.data() + model.positions, nullptr, nullptr, w});
+    }
   };
-  solve::Ledger ledger;
   try {
-    ledger = solve::Simulate(mechanism.system, file.simulation, y, observe);
+    solve::Simulate(mechanism.system, file.simulation, y, observe, ledger);
   } catch (const std::runtime_error& error) {
     throw io::RunError(error.what());
   }
 
+  for (const solve::FrictionEvent& event : ledger.events) {
+    const std::string& name = model.row_names[mechanism.system.friction[event.element].row];
+    run.friction_changes.push_back({event.time, name, event.mode});
+  }
   const int freedom = CountFreedom(mechanism);
   const std::vector<std::string> redundant = ListRedundantRows(model);
   const double scale = std::max(ledger.largest_kinetic, 1e-300);
@@ -177,6 +239,7 @@ MechanismRun RunMechanism(const MechanismFile& file) {
                            {"largest_kinetic", ledger.largest_kinetic},
                            {"largest_error", ledger.largest_energy_error}};
   run.summary["friction_switches"] = ledger.switches;
+  if (!stops.empty()) run.summary["stops"] = stops.MakeJson();
   nlohmann::ordered_json end;
   for (size_t i = 0; i < positions.size(); ++i) end[positions[i].name] = y[i];
   run.summary["end"] = end;
@@ -206,18 +269,21 @@ MechanismRun RunMechanism(const MechanismFile& file) {
 MechanismModes CalcMechanismModes(const MechanismFile& file) {
   Mechanism mechanism;
   std::vector<solve::Mode> modes;
-  solve::Linearisation linear;
+  StateSpace space;
+  MechanismModes result;
   try {
     mechanism = MakeMechanism(file);
-    linear = solve::Linearise(mechanism.system, 0, mechanism.start);
-    modes = solve::CalcModes(linear);
+    CheckNames(file, mechanism);
+    space = CalcStateSpace(file, mechanism);
+    modes = solve::CalcModes(space.linear);
+    result.responses = CalcResponses(file, space);
   } catch (const io::InputError&) {
     throw;
   } catch (const std::runtime_error& error) {
     throw io::RunError(error.what());
   }
-  const auto coordinates = ListCoordinates(mechanism, true);
-  MechanismModes result;
+  const solve::Linearisation& linear = space.linear;
+  const auto coordinates = ListVelocityNames(mechanism);
   auto& json = result.json;
   json["name"] = mechanism.system.name;
   json["independent"] = {{"positions", linear.positions},
@@ -232,7 +298,17 @@ MechanismModes CalcMechanismModes(const MechanismFile& file) {
     }
     return rows;
   };
+  const auto names = [](const std::vector<StateSpace::Name>& list) {
+    auto entries = nlohmann::ordered_json::array();
+    for (const auto& [name, unit] : list) entries.push_back({{"name", name}, {"unit", unit}});
+    return entries;
+  };
+  json["inputs"] = names(space.inputs);
+  json["outputs"] = names(space.outputs);
   json["A"] = matrix(linear.A);
+  json["B"] = matrix(space.B);
+  json["C"] = matrix(space.C);
+  json["D"] = matrix(space.D);
   json["position_basis"] = matrix(linear.position_basis);
   json["velocity_basis"] = matrix(linear.velocity_basis);
   result.text = fmt::format(
@@ -256,6 +332,27 @@ MechanismModes CalcMechanismModes(const MechanismFile& file) {
                     mode.damping_ratio, mode.eigenvalue.real(), mode.eigenvalue.imag(), largest);
   }
   json["modes"] = std::move(list);
+  auto responses = nlohmann::ordered_json::array();
+  for (const ResponseCurve& curve : result.responses) {
+    std::vector<double> magnitude, phase;
+    for (const std::complex<double>& value : curve.values) {
+      magnitude.push_back(std::abs(value));
+      phase.push_back(std::arg(value) * 180 / std::numbers::pi);
+    }
+    const auto peak = std::max_element(magnitude.begin(), magnitude.end()) - magnitude.begin();
+    result.text +=
+        fmt::format("\n{}: {} to {}, largest {:.6g} {} at {:.6g} Hz", curve.name, curve.input,
+                    curve.output, magnitude[peak], curve.unit, curve.frequency[peak]);
+    responses.push_back({{"name", curve.name},
+                         {"input", curve.input},
+                         {"output", curve.output},
+                         {"unit", curve.unit},
+                         {"frequency", {{"unit", "Hz"}, {"values", curve.frequency}}},
+                         {"magnitude", magnitude},
+                         {"phase", {{"unit", "deg"}, {"values", phase}}}});
+  }
+  if (!result.responses.empty()) result.text += '\n';
+  json["frequency_responses"] = std::move(responses);
   return result;
 }
 

@@ -130,13 +130,20 @@ void CheckMass(const Model& model, const Eigen::MatrixXd& K) {
 }
 
 // Units for each unknown in which the matrix has entries near one: coordinates to unit inertia,
-// rows to a gradient of unit length in these units.
+// rows to a gradient of unit length in these units. A gradient that is rounding beside the largest
+// (an axis turned by 90 degrees leaves 6e-17 of it) counts as none: scaled up it would pass for a
+// row that holds something.
 Eigen::VectorXd CalcScale(const Model& model, const Eigen::MatrixXd& K) {
   const int nv = model.velocities;
   Eigen::VectorXd scale(K.rows());
   scale.head(nv) = K.diagonal().head(nv).cwiseSqrt().cwiseInverse();
+  double largest = 0;
   for (int r = nv; r < K.rows(); ++r) {
-    const double norm = K.col(r).head(nv).cwiseProduct(scale.head(nv)).norm();
+    scale[r] = K.col(r).head(nv).cwiseProduct(scale.head(nv)).norm();
+    largest = std::max(largest, scale[r]);
+  }
+  for (int r = nv; r < K.rows(); ++r) {
+    const double norm = scale[r] > 1e-13 * largest ? scale[r] : largest;
     scale[r] = norm > 0 ? 1.0 / norm : 1.0;
   }
   return scale;

@@ -8,8 +8,11 @@ namespace kingpin::mechanism {
 
 namespace {
 
-constexpr double kSafeShare = 0.1;      // of the largest pivot a row can have
-constexpr double kDependent = 1e-9;     // of the same: nothing but rounding is left
+constexpr double kSafeShare = 0.1;   // of the largest pivot a row can have
+constexpr double kDependent = 1e-9;  // of the same: nothing but rounding is left
+// What a row of gradient one (the scale of the samples) at least has of it, squared: less is
+// rounding of a gradient that vanishes.
+constexpr double kNoGradient = 1e-20;
 constexpr double kRunTimeShare = 1e-5;  // of the pivots seen, before digits are worth saving
 
 }  // namespace
@@ -75,7 +78,7 @@ EliminationOrder ChooseEliminationOrder(int coordinates,
         for (int i = 0; i < coordinates && free; ++i) free = gone[i] || !linked[k][i];
         share = std::numeric_limits<double>::infinity();
         for (size_t s = 0; s < work.size(); ++s) {
-          share = std::min(share, full[s][k] > 0 ? -work[s](k, k) / full[s][k] : 0.0);
+          share = std::min(share, full[s][k] > kNoGradient ? -work[s](k, k) / full[s][k] : 0.0);
         }
         last_resort = share < kSafeShare;
         if (last_resort && !free) continue;
@@ -106,7 +109,8 @@ EliminationOrder ChooseEliminationOrder(int coordinates,
       // Dependent in every sample: one state with a pivot is enough to keep the row.
       double largest = 0;
       for (size_t s = 0; s < work.size(); ++s) {
-        if (full[s][best] > 0) largest = std::max(largest, -work[s](best, best) / full[s][best]);
+        if (full[s][best] > kNoGradient)
+          largest = std::max(largest, -work[s](best, best) / full[s][best]);
       }
       if (largest < kDependent) {
         result.redundant[best - coordinates] = 1;

@@ -16,7 +16,7 @@ JacobianEvaluator::JacobianEvaluator(const System& system)
       direction_(system.model.positions) {}
 
 void JacobianEvaluator::Calc(double time, std::span<const double> y, std::span<const double> active,
-                             Eigen::Ref<Eigen::MatrixXd> jacobian) {
+                             Eigen::Ref<Eigen::MatrixXd> jacobian, Eigen::MatrixXd* reactions) {
   constexpr int kLanes = 8;
   const Model& model = system_.model;
   const int nq = model.positions, nv = model.velocities, nz = system_.states;
@@ -60,6 +60,10 @@ void JacobianEvaluator::Calc(double time, std::span<const double> y, std::span<c
     for (int lane = 0; lane < lanes; ++lane) {
       for (int i = 0; i < nv; ++i) {
         jacobian(i, first + lane) = w_.x[model.pattern.position(i)].d[lane];
+      }
+      for (int r = 0; reactions != nullptr && r < model.rows; ++r) {
+        const bool acts = active[r] != 0 && !model.redundant[r];
+        (*reactions)(r, first + lane) = acts ? -w_.x[model.pattern.position(nv + r)].d[lane] : 0.0;
       }
       for (int i = 0; i < nz; ++i) jacobian(nv + i, first + lane) = state_rates_[i].d[lane];
     }

@@ -18,8 +18,10 @@ class JacobianEvaluator {
  public:
   explicit JacobianEvaluator(const System& system);
 
+  /// @param reactions unless null, the same derivatives of the reactions R, rows x columns; 0 for
+  /// rows that are redundant or not active
   void Calc(double time, std::span<const double> y, std::span<const double> active,
-            Eigen::Ref<Eigen::MatrixXd> jacobian);
+            Eigen::Ref<Eigen::MatrixXd> jacobian, Eigen::MatrixXd* reactions = nullptr);
 
   int rows() const { return system_.model.velocities + system_.states; }
   int columns() const { return 2 * system_.model.velocities + system_.states; }

@@ -82,7 +82,8 @@ Linearisation Linearise(const mechanism::System& system, double time, std::span<
   evaluator.ReleaseFriction();
   mechanism::JacobianEvaluator derivatives(system);
   Eigen::MatrixXd jacobian(derivatives.rows(), derivatives.columns());
-  derivatives.Calc(time, y, evaluator.workspace().active, jacobian);
+  Eigen::MatrixXd reactions(model.rows, derivatives.columns());
+  derivatives.Calc(time, y, evaluator.workspace().active, jacobian, &reactions);
 
   Linearisation linear;
   linear.position_basis = CalcNullSpace(model, q, Rows::kHolonomic);
@@ -117,10 +118,56 @@ Linearisation Linearise(const mechanism::System& system, double time, std::span<
   linear.A.block(np + nu, 0, nz, np) = a_u.bottomRows(nz) * Tq + a_v.bottomRows(nz) * E;
   linear.A.block(np + nu, np, nz, nu) = a_v.bottomRows(nz) * Tv;
   linear.A.block(np + nu, np + nu, nz, nz) = a_z.bottomRows(nz);
+
+  const int n = np + nu + nz;
+  linear.displacement = linear.rate = Eigen::MatrixXd::Zero(nv, n);
+  linear.displacement.leftCols(np) = Tq;
+  linear.rate.leftCols(np) = E;
+  linear.rate.middleCols(np, nu) = Tv;
+  const auto expand = [&](const auto& all) {
+    Eigen::MatrixXd result(all.rows(), n);
+    result.leftCols(np) = all.leftCols(nv) * Tq + all.middleCols(nv, nv) * E;
+    result.middleCols(np, nu) = all.middleCols(nv, nv) * Tv;
+    result.rightCols(nz) = all.rightCols(nz);
+    return result;
+  };
+  linear.acceleration = expand(jacobian.topRows(nv));
+  linear.reaction = expand(reactions);
   return linear;
 }
 
+Eigen::VectorXd MakeInputColumn(const Linearisation& linear,
+                                const Eigen::Ref<const Eigen::VectorXd>& acceleration) {
+  Eigen::VectorXd column = Eigen::VectorXd::Zero(linear.A.rows());
+  column.segment(linear.positions, linear.velocities) =
+      linear.velocity_basis.transpose() * acceleration;
+  return column;
+}
+
+std::vector<std::complex<double>> CalcFrequencyResponse(const Eigen::MatrixXd& A,
+                                                        const Eigen::VectorXd& B,
+                                                        const Eigen::RowVectorXd& C, double D,
+                                                        std::span<const double> frequencies) {
+  std::vector<std::complex<double>> response;
+  response.reserve(frequencies.size());
+  const int n = static_cast<int>(A.rows());
+  // one Hessenberg form A = Q H Qᵀ for all frequencies would save a factor of n; sizes are small
+  const Eigen::VectorXcd right = B.cast<std::complex<double>>();
+  for (double frequency : frequencies) {
+    if (n == 0) {
+      response.emplace_back(D);
+      continue;
+    }
+    Eigen::MatrixXcd system = -A.cast<std::complex<double>>();
+    system.diagonal().array() += std::complex<double>(0, 2 * std::numbers::pi * frequency);
+    const Eigen::VectorXcd x = system.partialPivLu().solve(right);
+    response.push_back((C.cast<std::complex<double>>() * x).value() + D);
+  }
+  return response;
+}
+
 std::vector<Mode> CalcModes(const Linearisation& linear) {
+  if (linear.A.rows() == 0) return {};  // driven throughout
   const Eigen::EigenSolver<Eigen::MatrixXd> solver(linear.A);
   std::vector<Mode> modes;
   for (int k = 0; k < linear.A.rows(); ++k) {

@@ -22,11 +22,27 @@ struct Linearisation {
   Eigen::MatrixXd A;
   Eigen::MatrixXd position_basis;  ///< velocities x independent positions: δq directions per ξ
   Eigen::MatrixXd velocity_basis;  ///< velocities x independent velocities
+  // δ of each quantity per x = (ξ, η, states), all coordinates or rows:
+  Eigen::MatrixXd displacement;  ///< δq along the velocity coordinates: [T_q, 0, 0]
+  Eigen::MatrixXd rate;          ///< δv: [E, T_v, 0]
+  Eigen::MatrixXd acceleration;  ///< δa
+  Eigen::MatrixXd reaction;      ///< δR
   int positions = 0, velocities = 0, states = 0;
 };
 
 /// @param y a state that meets the constraints; it need not rest (steady motions linearise, too)
 Linearisation Linearise(const mechanism::System& system, double time, std::span<const double> y);
+
+/// The column of B that a generalised input has: x changes by this per unit of an input under which
+/// the coordinates accelerate by `acceleration`.
+Eigen::VectorXd MakeInputColumn(const Linearisation& linearisation,
+                                const Eigen::Ref<const Eigen::VectorXd>& acceleration);
+
+/// C (iω - A)⁻¹ B + D for one output and one input, per frequency [Hz].
+std::vector<std::complex<double>> CalcFrequencyResponse(const Eigen::MatrixXd& A,
+                                                        const Eigen::VectorXd& B,
+                                                        const Eigen::RowVectorXd& C, double D,
+                                                        std::span<const double> frequencies);
 
 /// An eigenvalue of A with its motion.
 struct Mode {

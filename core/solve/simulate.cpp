@@ -20,7 +20,7 @@ constexpr double kStill = 1e-9;
 class Run {
  public:
   Run(const mechanism::System& system, const SimulationOptions& options, std::span<double> y,
-      const Observer& observe)
+      const Observer& observe, Ledger& ledger)
       : system_(system),
         options_(options),
         observe_(observe),
@@ -32,11 +32,17 @@ class Run {
         rate_(y.size()),
         rate_before_(y.size()),
         middle_(y.size()),
-        switches_(system.friction.size()) {}
+        switches_(system.friction.size()),
+        modes_(system.friction.size()),
+        ledger_(ledger) {
+    ledger_ = {};
+    if (!system.friction.empty()) ledger_.events.reserve(Ledger::kMostEvents);
+  }
 
-  Ledger Execute() {
+  void Execute() {
     evaluator_.Project(0, y_, options_.stepper.projection_tolerance, 0);
     evaluator_.UpdateModes(0, y_, kStill);
+    for (size_t f = 0; f < modes_.size(); ++f) NoteMode(0, f);
     OpenBooks();
     observe_(0, y_, evaluator_);
     long sample = 1;
@@ -67,7 +73,6 @@ class Run {
     }
     ledger_.steps = stepper_->steps;
     ledger_.jacobians = stepper_->jacobians;
-    return ledger_;
   }
 
  private:
@@ -146,9 +151,19 @@ class Run {
     }
     evaluator_.UpdateModes(time, y_, at_rest_ + kStill);
     at_rest_ = 0;
+    for (size_t f = 0; f < modes_.size(); ++f) {
+      if (evaluator_.modes()[f] != modes_[f]) NoteMode(time, f);
+    }
     evaluator_.Project(time, y_, options_.stepper.projection_tolerance, 0);
     evaluator_.CalcRates(time, y_, rate_);
     stepper_->Restart();
+  }
+
+  void NoteMode(double time, size_t f) {
+    modes_[f] = evaluator_.modes()[f];
+    if (ledger_.events.size() < Ledger::kMostEvents) {
+      ledger_.events.push_back({time, static_cast<int>(f), modes_[f]});
+    }
   }
 
   void OpenBooks() {
@@ -196,16 +211,24 @@ class Run {
   mechanism::Evaluator evaluator_;
   std::unique_ptr<Stepper> stepper_;
   std::vector<double> before_, trial_, rate_, rate_before_, middle_, switches_;
+  std::vector<int> modes_;
   double at_rest_ = 0;
   mechanism::Energy energy_;
-  Ledger ledger_;
+  Ledger& ledger_;
 };
 
 }  // namespace
 
+void Simulate(const mechanism::System& system, const SimulationOptions& options,
+              std::span<double> y, const Observer& observe, Ledger& ledger) {
+  Run(system, options, y, observe, ledger).Execute();
+}
+
 Ledger Simulate(const mechanism::System& system, const SimulationOptions& options,
                 std::span<double> y, const Observer& observe) {
-  return Run(system, options, y, observe).Execute();
+  Ledger ledger;
+  Simulate(system, options, y, observe, ledger);
+  return ledger;
 }
 
 }  // namespace kingpin::solve

@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <span>
+#include <vector>
 
 #include "core/solve/stepper.h"
 
@@ -16,8 +17,17 @@ struct SimulationOptions {
   std::vector<double> kinks;
 };
 
+/// Dry friction that began to stick (mode 0) or to slide (±1, the way it slides).
+struct FrictionEvent {
+  double time = 0;
+  int element = 0;  ///< of System::friction
+  int mode = 0;
+};
+
 /// The books of a run.
 struct Ledger {
+  static constexpr size_t kMostEvents = 1000;
+
   double energy_start = 0, energy_end = 0;  ///< kinetic and potential [J]
   double dissipated = 0, supplied = 0;      ///< over the run [J]
   double largest_energy_error = 0;  ///< of |E - E_start - supplied + dissipated| at any step [J]
@@ -25,6 +35,7 @@ struct Ledger {
   double largest_position_residual = 0;  ///< [m, rad]
   double largest_velocity_residual = 0;  ///< [m/s, rad/s]
   long steps = 0, jacobians = 0, switches = 0;
+  std::vector<FrictionEvent> events;  ///< the first kMostEvents, those at the start among them
 };
 
 /// Called at t = 0 and at every sample, after CalcRates there.
@@ -39,5 +50,10 @@ using Observer =
 ///     stands.
 Ledger Simulate(const mechanism::System& system, const SimulationOptions& options,
                 std::span<double> y, const Observer& observe);
+
+/// The same with the caller's ledger, whose energies, residuals and events are up to date whenever
+/// `observe` is called, and after a run that failed.
+void Simulate(const mechanism::System& system, const SimulationOptions& options,
+              std::span<double> y, const Observer& observe, Ledger& ledger);
 
 }  // namespace kingpin::solve

@@ -38,6 +38,36 @@ TEST(MechanismFile, AFileIsWhatTheBuilderWouldMake) {
   EXPECT_EQ(modes.json["modes"].size(), 1);
 }
 
+TEST(MechanismFile, ADrivenMechanismHasNoModes) {
+  const MechanismModes modes = CalcMechanismModes(ReadMechanismText(
+      kPendulum + "motions:\n  drive: {joint: hinge, start: 1.3962634015954636}\n", "p.yaml"));
+  EXPECT_TRUE(modes.json["modes"].empty());
+}
+
+// A closed loop in a plane, with the crank's axes turned there and back by 90 degrees: 6e-17 of a
+// gradient is left of the row across the plane.
+TEST(MechanismFile, ARowWhoseGradientIsRoundingIsRedundant) {
+  const MechanismRun run = RunMechanism(ReadMechanismText(R"(kind: mechanism
+bodies:
+  disc: {mass: 1, inertia: [0.01, 0.01, 0.01]}
+  crank: {mass: 1, inertia: [0.01, 0.01, 0.01]}
+  rod: {mass: 1, centre: [0.15, 0, 0], inertia: [1e-4, 0.01, 0.01]}
+  slider: {mass: 2, inertia: [0.01, 0.01, 0.01]}
+joints:
+  main: {type: revolute, turned: [0, 0, 90 deg], child: disc, axis: [1, 0, 0], angle_rate: 10 rad/s}
+  clamp: {type: fixed, parent: disc, turned: [0, 0, -90 deg], child: crank}
+  pin: {type: revolute, parent: crank, at: [0.08, 0, 0], child: rod, axis: [0, 1, 0]}
+  guide: {type: prismatic, child: slider, axis: [1, 0, 0], displacement: 0.38}
+closures:
+  wrist: {type: spherical, a: rod, a_at: [0.3, 0, 0], b: slider}
+simulation: {method: explicit8, duration: 0.5 s}
+)",
+                                                          "loop.yaml"));
+  EXPECT_EQ(run.summary["redundant_rows"], nlohmann::ordered_json::array({"wrist.y"}));
+  EXPECT_EQ(run.summary["degrees_of_freedom"], 1);
+  EXPECT_LT(run.summary["energy"]["largest_error"].get<double>(), 1e-6);
+}
+
 struct Mistake {
   const char *text, *with, *message;
 };
