@@ -222,7 +222,6 @@ MechanismRun RunMechanism(const MechanismFile& file) {
   }
   const int freedom = CountFreedom(mechanism);
   const std::vector<std::string> redundant = ListRedundantRows(model);
-  const double scale = std::max(ledger.largest_kinetic, 1e-300);
   run.summary["name"] = mechanism.system.name;
   run.summary["method"] = GetMethodName(file.simulation.stepper.method);
   run.summary["coordinates"] = model.velocities;
@@ -247,8 +246,9 @@ MechanismRun RunMechanism(const MechanismFile& file) {
                     {"jacobians", static_cast<double>(ledger.jacobians)},
                     {"friction_switches", static_cast<double>(ledger.switches)}};
 
-  run.text = fmt::format("{}: {} coordinates, {} constraint rows, {} degrees of freedom\n",
-                         mechanism.system.name, model.velocities, model.rows, freedom);
+  run.text = fmt::format("{}: {} coordinates, {} constraint rows, {} degree{} of freedom\n",
+                         mechanism.system.name, model.velocities, model.rows, freedom,
+                         freedom == 1 ? "" : "s");
   if (!redundant.empty()) {
     run.text +=
         fmt::format("Redundant rows, reactions taken as zero: {}\n", fmt::join(redundant, ", "));
@@ -256,13 +256,15 @@ MechanismRun RunMechanism(const MechanismFile& file) {
   run.text += fmt::format(
       "{:g} s by {}: {} steps\n"
       "Largest residual of the constraints: {:.1e} m or rad, {:.1e} m/s or rad/s\n"
-      "Energy: start {:.6g} J, end {:.6g} J, supplied {:.6g} J, dissipated {:.6g} J; balance off "
-      "by {:.1e} of the largest kinetic energy\n",
+      "Energy: start {:.6g} J, end {:.6g} J, supplied {:.6g} J, dissipated {:.6g} J\n"
+      "Balance of energy off by {:.1e} J, largest kinetic energy {:.6g} J\n",
       file.simulation.duration, GetMethodName(file.simulation.stepper.method), ledger.steps,
       ledger.largest_position_residual, ledger.largest_velocity_residual, ledger.energy_start,
-      ledger.energy_end, ledger.supplied, ledger.dissipated, ledger.largest_energy_error / scale);
+      ledger.energy_end, ledger.supplied, ledger.dissipated, ledger.largest_energy_error,
+      ledger.largest_kinetic);
   if (ledger.switches > 0)
-    run.text += fmt::format("Dry friction switched {} times\n", ledger.switches);
+    run.text += fmt::format("Dry friction switched {} time{}\n", ledger.switches,
+                            ledger.switches == 1 ? "" : "s");
   return run;
 }
 
