@@ -10,11 +10,12 @@ namespace kingpin::joints {
 
 namespace {
 
-using Segment = FileBeam::Segment;
-using Shape = FileBeam::Shape;
+using Material = FileBeamMaterial;
+using Segment = FileBeamSegment;
+using Shape = FileBeamShape;
+using Totals = FileBeamTotals;
 
-const io::Schema<FileBeam::Material>& MaterialSchema() {
-  using Material = FileBeam::Material;
+const io::Schema<Material>& MaterialSchema() {
   static const io::Schema<Material> schema = [] {
     io::Schema<Material> s("material", "Elastic material with Kelvin-Voigt damping.");
     s.Quantity("E", &Material::E, "Pa", "Young's modulus").Positive();
@@ -73,8 +74,7 @@ const io::Schema<Segment>& SegmentSchema() {
   return schema;
 }
 
-const io::Schema<FileBeam::Totals>& TotalsSchema() {
-  using Totals = FileBeam::Totals;
+const io::Schema<Totals>& TotalsSchema() {
   static const io::Schema<Totals> schema = [] {
     io::Schema<Totals> s("totals",
                          "A uniform beam by what was measured on the whole: end load over end "
@@ -108,7 +108,7 @@ const io::Schema<FileBeam::Totals>& TotalsSchema() {
   return schema;
 }
 
-bodies::BeamMaterial MakeMaterial(const FileBeam::Material& m) {
+bodies::BeamMaterial MakeMaterial(const Material& m) {
   return {m.E, m.G, m.density, m.normal_damping, m.shear_damping};
 }
 
@@ -226,7 +226,7 @@ BeamDescription MakeBeamDescription(const std::string& name, const FileBeam& bea
     }
   };
   if (beam.totals) {
-    const FileBeam::Totals& t = *beam.totals;
+    const Totals& t = *beam.totals;
     bodies::UniformBeam uniform{t.length, t.mass, t.axial_inertia, {}, {}};
     for (int i = 0; i < 3; ++i) {
       uniform.stiffness[i] = t.stiffness[i];

@@ -14,34 +14,39 @@ namespace kingpin::joints {
 /// Most springs of one beam in a file: each has up to six coordinates.
 inline constexpr int kMostFileElements = 500;
 
+struct FileBeamMaterial {
+  double E = 0, G = 0, density = 0, normal_damping = 0, shear_damping = 0;
+};
+
+enum class FileBeamShape { kRound, kTube, kRectangle, kGiven };
+
+struct FileBeamSegment {
+  double length = 0;
+  FileBeamShape shape = FileBeamShape::kRound;
+  double diameter = 0, outer = 0, inner = 0, width = 0, height = 0;
+  std::optional<double> end_diameter, end_outer, end_inner, end_width, end_height;
+  double area = 0, Iy = 0, Iz = 0, torsion_constant = 0, shear_y = 1.2, shear_z = 1.2;
+  std::optional<FileBeamMaterial> material;
+};
+
+/// What was measured on a whole uniform beam.
+struct FileBeamTotals {
+  double length = 0, mass = 0, axial_inertia = 0;
+  FilePoint stiffness{}, turning_stiffness{}, damping{}, turning_damping{};
+};
+
 /// A beam as a mechanism file says it (`beams:`): a list of segments of one material or several, or
 /// the totals of a uniform one.
 struct FileBeam {
-  enum class Shape { kRound, kTube, kRectangle, kGiven };
-  struct Material {
-    double E = 0, G = 0, density = 0, normal_damping = 0, shear_damping = 0;
-  };
-  struct Segment {
-    double length = 0;
-    Shape shape = Shape::kRound;
-    double diameter = 0, outer = 0, inner = 0, width = 0, height = 0;
-    std::optional<double> end_diameter, end_outer, end_inner, end_width, end_height;
-    double area = 0, Iy = 0, Iz = 0, torsion_constant = 0, shear_y = 1.2, shear_z = 1.2;
-    std::optional<Material> material;
-  };
-  struct Totals {
-    double length = 0, mass = 0, axial_inertia = 0;
-    FilePoint stiffness{}, turning_stiffness{}, damping{}, turning_damping{};
-  };
   std::string body = kWorld;
   FilePoint at{}, turned{};
   JointType root = JointType::kFixed;
   int elements = 0;
   BeamDescription::Flexibility flexibility = BeamDescription::Flexibility::kTorsionAndBending;
   bool shear = true, tension = true;
-  std::optional<Material> material;
-  std::vector<Segment> segments;
-  std::optional<Totals> totals;
+  std::optional<FileBeamMaterial> material;
+  std::vector<FileBeamSegment> segments;
+  std::optional<FileBeamTotals> totals;
 };
 
 const io::Schema<FileBeam>& FileBeamSchema();
