@@ -165,6 +165,7 @@ class Translator {
       result_.responses.push_back(
           {name, r.from, r.to, r.band[0], r.band[1], r.points, places_.Find("responses." + name)});
     }
+    SetTrim();
     return std::move(result_);
   }
 
@@ -411,6 +412,23 @@ class Translator {
     }
   }
 
+  void SetTrim() {
+    if (!file_.equilibrium) return;
+    MechanismFile::Trim& trim = result_.trim;
+    trim.source = places_.Find("equilibrium");
+    for (size_t i = 0; i < file_.equilibrium->vary.size(); ++i) {
+      const file::Vary& vary = file_.equilibrium->vary[i];
+      trim.vary.push_back(
+          {vary.of, vary.quantity, places_.Find(fmt::format("equilibrium.vary[{}]", i))});
+    }
+    for (size_t i = 0; i < file_.equilibrium->targets.size(); ++i) {
+      const file::Target& target = file_.equilibrium->targets[i];
+      trim.targets.push_back(
+          {target.of, target.value, places_.Find(fmt::format("equilibrium.targets[{}]", i))});
+    }
+    result_.start_at_rest = true;
+  }
+
   void SetSimulation() {
     const file::Simulation& from = file_.simulation;
     result_.start_at_rest = from.start_at_rest;
@@ -481,7 +499,9 @@ void AddInputKinds(io::InputKinds* kinds) {
   kinds->Add({FileSchema().name(), FileSchema().core(),
               [](const std::filesystem::path& path, const io::ReadOptions& options) {
                 io::InputRecord record;
-                const MechanismFile file = ReadMechanismFile(path, options, &record);
+                MechanismFile file = ReadMechanismFile(path, options, &record);
+                // the equilibrium is one of values that are still to be found
+                if (!file.trim.vary.empty()) file.start_at_rest = false;
                 CheckNames(file, MakeMechanism(file));
                 return record;
               }});

@@ -32,6 +32,25 @@ struct MechanismFile {
     Source source;
   };
   std::vector<Response> responses;
+  /// Quantities of springs and motors to be varied until the equilibrium meets targets
+  /// (mechanism_trim.h).
+  struct Trim {
+    enum class Quantity { kFree, kPreload, kForce, kTarget };
+    struct Vary {
+      std::string of;
+      Quantity quantity = Quantity::kPreload;
+      Source source;
+    };
+    struct Target {
+      std::string of;  ///< coordinate or ROW.reaction
+      double value = 0;
+      Source source;
+    };
+    std::vector<Vary> vary;
+    std::vector<Target> targets;
+    Source source;
+  };
+  Trim trim;
   std::vector<std::string> beam_joints;  ///< those inside beams, their roots left out
 };
 

@@ -11,6 +11,7 @@
 #include "joints/beam_file.h"
 #include "joints/file_frame.h"
 #include "joints/mechanism_description.h"
+#include "joints/mechanism_file.h"
 #include "joints/urdf.h"
 
 /// What a mechanism file says, in its own terms; mechanism_file.cpp makes a mechanism of it.
@@ -140,6 +141,21 @@ struct Response {
   int points = 200;
 };
 
+struct Vary {
+  std::string of;
+  MechanismFile::Trim::Quantity quantity = MechanismFile::Trim::Quantity::kPreload;
+};
+
+struct Target {
+  std::string of;
+  double value = 0;
+};
+
+struct Equilibrium {
+  std::vector<Vary> vary;
+  std::vector<Target> targets;
+};
+
 struct File {
   std::string name;
   Point gravity{0, 0, -9.80665};
@@ -161,6 +177,7 @@ struct File {
   io::NamedList<Motor> motors;
   Simulation simulation;
   Report report;
+  std::optional<Equilibrium> equilibrium;
   io::NamedList<Response> responses;
 };
 

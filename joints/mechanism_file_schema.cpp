@@ -420,6 +420,29 @@ const io::Schema<Response>& ResponseSchema() {
   return schema;
 }
 
+const io::Schema<Equilibrium>& EquilibriumSchema() {
+  static const io::Schema<Equilibrium> schema = [] {
+    using Quantity = MechanismFile::Trim::Quantity;
+    io::Schema<Vary> vary("vary", "A quantity that is varied.");
+    vary.Text("of", &Vary::of, "a spring or a motor");
+    vary.Choice("quantity", &Vary::quantity,
+                {{"free", Quantity::kFree, "of a spring"},
+                 {"preload", Quantity::kPreload, "of a spring"},
+                 {"force", Quantity::kForce, "of a motor"},
+                 {"target", Quantity::kTarget, "of a motor"}},
+                "what is varied, from its value here");
+    io::Schema<Target> target("target", "What the equilibrium shall have.");
+    target.Text("of", &Target::of, "a coordinate, or ROW.reaction");
+    target.Quantity("value", &Target::value, "1", "SI");
+    io::Schema<Equilibrium> s("equilibrium",
+                              "Starts at rest, with quantities varied until targets are met.");
+    s.List("vary", &Equilibrium::vary, vary, "as many as targets");
+    s.List("targets", &Equilibrium::targets, target, "what to meet");
+    return s;
+  }();
+  return schema;
+}
+
 }  // namespace
 
 const io::Schema<File>& FileSchema() {
@@ -457,6 +480,9 @@ const io::Schema<File>& FileSchema() {
     s.Map("forces", &File::forces, ForceSchema(), "forces on bodies").Optional();
     s.Map("motors", &File::motors, MotorSchema(), "motors").Optional();
     s.Section("simulation", &File::simulation, SimulationSchema(), "how it is simulated")
+        .Optional();
+    s.Section("equilibrium", &File::equilibrium, EquilibriumSchema(),
+              "quantities to be varied until the equilibrium meets targets")
         .Optional();
     s.Map("responses", &File::responses, ResponseSchema(), "frequency responses").Optional();
     s.Section("report", &File::report, ReportSchema(), "what report.html shows").Optional();

@@ -14,6 +14,7 @@
 #include "joints/force_place.h"
 #include "joints/mechanism_linear.h"
 #include "joints/mechanism_names.h"
+#include "joints/mechanism_trim.h"
 
 namespace kingpin::joints {
 
@@ -108,6 +109,21 @@ class StopWatch {
   std::vector<Watch> watches_;
 };
 
+nlohmann::ordered_json MakeJson(const std::vector<TrimmedQuantity>& trimmed) {
+  nlohmann::ordered_json json;
+  for (const TrimmedQuantity& quantity : trimmed) json[quantity.name] = quantity.value;
+  return json;
+}
+
+std::string FormatTrimmed(const std::vector<TrimmedQuantity>& trimmed) {
+  std::string text;
+  for (const TrimmedQuantity& quantity : trimmed) {
+    text += fmt::format("Equilibrium meets its targets with {} = {:.9g}\n", quantity.name,
+                        quantity.value);
+  }
+  return text;
+}
+
 struct ShownNames {
   std::vector<std::string> coordinates, reactions;
 };
@@ -144,11 +160,15 @@ ShownNames FindShownNames(const MechanismFile& file, const Mechanism& mechanism)
 void CheckNames(const MechanismFile& file, const Mechanism& mechanism) {
   FindShownNames(file, mechanism);
   CheckResponses(file, mechanism);
+  CheckTrim(file, mechanism);
 }
 
-MechanismRun RunMechanism(const MechanismFile& file) {
+MechanismRun RunMechanism(const MechanismFile& given) {
+  MechanismFile file = given;
   Mechanism mechanism;
+  std::vector<TrimmedQuantity> trimmed;
   try {
+    trimmed = Trim(file);
     mechanism = MakeMechanism(file);
   } catch (const io::InputError&) {
     throw;
@@ -237,6 +257,7 @@ MechanismRun RunMechanism(const MechanismFile& file) {
                            {"dissipated", ledger.dissipated},
                            {"largest_kinetic", ledger.largest_kinetic},
                            {"largest_error", ledger.largest_energy_error}};
+  if (!trimmed.empty()) run.summary["equilibrium"] = MakeJson(trimmed);
   run.summary["friction_switches"] = ledger.switches;
   if (!stops.empty()) run.summary["stops"] = stops.MakeJson();
   nlohmann::ordered_json end;
@@ -246,9 +267,10 @@ MechanismRun RunMechanism(const MechanismFile& file) {
                     {"jacobians", static_cast<double>(ledger.jacobians)},
                     {"friction_switches", static_cast<double>(ledger.switches)}};
 
-  run.text = fmt::format("{}: {} coordinates, {} constraint rows, {} degree{} of freedom\n",
-                         mechanism.system.name, model.velocities, model.rows, freedom,
-                         freedom == 1 ? "" : "s");
+  run.text = FormatTrimmed(trimmed);
+  run.text += fmt::format("{}: {} coordinates, {} constraint rows, {} degree{} of freedom\n",
+                          mechanism.system.name, model.velocities, model.rows, freedom,
+                          freedom == 1 ? "" : "s");
   if (!redundant.empty()) {
     run.text +=
         fmt::format("Redundant rows, reactions taken as zero: {}\n", fmt::join(redundant, ", "));
@@ -268,12 +290,15 @@ MechanismRun RunMechanism(const MechanismFile& file) {
   return run;
 }
 
-MechanismModes CalcMechanismModes(const MechanismFile& file) {
+MechanismModes CalcMechanismModes(const MechanismFile& given) {
+  MechanismFile file = given;
+  std::vector<TrimmedQuantity> trimmed;
   Mechanism mechanism;
   std::vector<solve::Mode> modes;
   StateSpace space;
   MechanismModes result;
   try {
+    trimmed = Trim(file);
     mechanism = MakeMechanism(file);
     CheckNames(file, mechanism);
     space = CalcStateSpace(file, mechanism);
@@ -288,6 +313,7 @@ MechanismModes CalcMechanismModes(const MechanismFile& file) {
   const auto coordinates = ListVelocityNames(mechanism);
   auto& json = result.json;
   json["name"] = mechanism.system.name;
+  if (!trimmed.empty()) json["equilibrium"] = MakeJson(trimmed);
   json["independent"] = {{"positions", linear.positions},
                          {"velocities", linear.velocities},
                          {"states", linear.states}};
@@ -334,6 +360,7 @@ MechanismModes CalcMechanismModes(const MechanismFile& file) {
                     mode.damping_ratio, mode.eigenvalue.real(), mode.eigenvalue.imag(), largest);
   }
   json["modes"] = std::move(list);
+  result.text += FormatTrimmed(trimmed);
   auto responses = nlohmann::ordered_json::array();
   for (const ResponseCurve& curve : result.responses) {
     std::vector<double> magnitude, phase;
