@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "optimisation/report/bode_chart.h"
 #include "optimisation/report/html.h"
 #include "optimisation/report/line_chart.h"
 #include "optimisation/report/number_format.h"
@@ -263,6 +264,53 @@ std::string MakeMechanismReport(const joints::MechanismRun& run) {
             page);
   AddFriction(run, page);
   AddStops(run, page);
+  return page.MakeDocument(name);
+}
+
+std::string MakeModesReport(const joints::MechanismModes& modes) {
+  report::Page page;
+  const std::string name = modes.json["name"].get<std::string>();
+  page.Add("<h1>" + report::EscapeHtml(name) + "</h1>\n");
+  page.AddHeading(2, "Modes");
+  report::Table table;
+  table.AddHeader({report::TextCell("Frequency [Hz]", "n"), report::TextCell("Damping", "n"),
+                   report::TextCell("Eigenvalue [1/s]", "n"), report::TextCell("Largest motions")});
+  for (const auto& mode : modes.json["modes"]) {
+    std::vector<std::pair<double, std::string>> parts;
+    for (const auto& [coordinate, value] : mode["shape"].items()) {
+      parts.emplace_back(std::hypot(value[0].get<double>(), value[1].get<double>()), coordinate);
+    }
+    std::stable_sort(parts.begin(), parts.end(),
+                     [](const auto& a, const auto& b) { return a.first > b.first; });
+    std::string largest;
+    for (size_t i = 0; i < parts.size() && i < 4 && parts[i].first > 0.05; ++i) {
+      largest += fmt::format("{}{} ({})", i > 0 ? ", " : "", parts[i].second,
+                             report::FormatShort(parts[i].first, 2));
+    }
+    const double real = mode["eigenvalue"][0].get<double>(),
+                 imaginary = mode["eigenvalue"][1].get<double>();
+    std::string eigenvalue = report::FormatNumber(real, 5);
+    if (imaginary != 0) eigenvalue += " ± " + report::FormatNumber(imaginary, 5) + " i";
+    table.AddRow({Number(mode["frequency_hz"].get<double>(), 5),
+                  Number(mode["damping_ratio"].get<double>(), 4), report::TextCell(eigenvalue, "n"),
+                  report::TextCell(largest, "muted")});
+  }
+  page.Add(table.MakeHtml());
+  std::string charts;
+  for (const joints::ResponseCurve& curve : modes.responses) {
+    report::BodeChart chart;
+    chart.title = fmt::format("{}: {} to {}", curve.name, curve.input, curve.output);
+    chart.unit = curve.unit;
+    chart.series.push_back({.name = curve.name,
+                            .frequency_hz = curve.frequency,
+                            .response = curve.values,
+                            .style = MakeStyle(0)});
+    charts += report::DrawBodeChart(chart);
+  }
+  if (!charts.empty()) {
+    page.AddHeading(2, "Frequency responses");
+    page.Add("<div class=\"charts\">" + charts + "</div>\n");
+  }
   return page.MakeDocument(name);
 }
 

@@ -12,4 +12,7 @@ namespace kingpin::apps {
 /// left out.
 std::string MakeMechanismReport(const joints::MechanismRun& run);
 
+/// Modes as a table and frequency responses as Bode plots.
+std::string MakeModesReport(const joints::MechanismModes& modes);
+
 }  // namespace kingpin::apps

@@ -6,6 +6,7 @@
 
 #include "apps/common_options.h"
 #include "apps/input_kinds.h"
+#include "apps/mechanism_report.h"
 #include "apps/run_support.h"
 #include "core/io/json_text.h"
 #include "joints/mechanism_run.h"
@@ -28,8 +29,16 @@ void Print(const Result& result, const CommonOptions& options) {
 
 void RunModesVerb(const std::string& file, bool held, const CommonOptions& options) {
   if (IsMechanismFile(file)) {
-    Print(joints::CalcMechanismModes(joints::ReadMechanismFile(file, MakeReadOptions(options))),
-          options);
+    const joints::MechanismModes modes =
+        joints::CalcMechanismModes(joints::ReadMechanismFile(file, MakeReadOptions(options)));
+    if (options.output.ends_with(".html")) {
+      io::WriteFileAtomically(options.output, MakeModesReport(modes));
+      CommonOptions rest = options;
+      rest.output.clear();
+      Print(modes, rest);
+    } else {
+      Print(modes, options);
+    }
   } else {
     Print(study::CalcScenarioModes(study::ReadScenario(file, MakeReadOptions(options)), held),
           options);
@@ -46,7 +55,9 @@ void AddVerbModes(CLI::App& app, CommonOptions& options) {
   verb->add_option("FILE", *file, "A scenario or mechanism file, or a folder with scenario.yaml")
       ->required();
   verb->add_flag("--held", *held, "The table with the steering wheel held; JSON has free and held");
-  AddOutputOption(*verb, options, "File for everything as JSON");
+  AddOutputOption(*verb, options,
+                  "File for everything as JSON; of a mechanism, with the ending .html, a page with "
+                  "Bode plots");
   AddSetOption(*verb, options);
   AddPrintOptions(*verb, options);
   verb->callback([=, &options] { RunModesVerb(*file, *held, options); });

@@ -116,6 +116,9 @@ TEST_F(Documentation, MechanismsPageRunsAsPrinted) {
     EXPECT_TRUE(fs::exists(folder_ / "results/four_bar_simulate" / name)) << name;
   }
   const nlohmann::json modes = nlohmann::json::parse(ReadAll(folder_ / "arm.json"));
+  EXPECT_EQ(Run("modes arm.yaml -o arm.html").status, 0);
+  EXPECT_NE(ReadAll(folder_ / "arm.html").find("compliance: elbow_motor to elbow"),
+            std::string::npos);
   for (const char* key : {"A", "B", "C", "D", "inputs", "outputs", "frequency_responses"}) {
     EXPECT_TRUE(modes.contains(key)) << key;
   }
