@@ -85,10 +85,12 @@ StateSpace CalcStateSpace(const MechanismFile& file, const Mechanism& mechanism)
   const int nv = model.velocities, n = static_cast<int>(space.linear.A.rows());
   const int outputs = static_cast<int>(space.outputs.size());
   space.C.resize(outputs, n);
-  space.C.topRows(nv) = space.linear.displacement;
-  space.C.middleRows(nv, nv) = space.linear.rate;
-  space.C.middleRows(2 * nv, nv) = space.linear.acceleration;
-  space.C.bottomRows(model.rows) = space.linear.reaction;
+  if (n > 0) {  // no empty matrix is taken apart
+    space.C.topRows(nv) = space.linear.displacement;
+    space.C.middleRows(nv, nv) = space.linear.rate;
+    space.C.middleRows(nv + nv, nv) = space.linear.acceleration;
+    space.C.bottomRows(model.rows) = space.linear.reaction;
+  }
   space.B = Eigen::MatrixXd::Zero(n, static_cast<int>(inputs.size()));
   space.D = Eigen::MatrixXd::Zero(outputs, static_cast<int>(inputs.size()));
   for (size_t k = 0; k < inputs.size(); ++k) {
@@ -104,8 +106,8 @@ StateSpace CalcStateSpace(const MechanismFile& file, const Mechanism& mechanism)
     evaluator.CalcRates(0, y, rate);
     const Eigen::Map<const Eigen::VectorXd> acceleration(evaluator.accelerations().data(), nv);
     const int column = static_cast<int>(k);
-    space.B.col(column) = solve::MakeInputColumn(space.linear, acceleration);
-    space.D.col(column).segment(2 * nv, nv) = acceleration;
+    if (n > 0) space.B.col(column) = solve::MakeInputColumn(space.linear, acceleration);
+    space.D.col(column).segment(nv + nv, nv) = acceleration;
     for (int r = 0; r < model.rows; ++r) {
       space.D(3 * nv + r, column) = evaluator.reactions()[r];
     }
@@ -128,8 +130,12 @@ std::vector<ResponseCurve> CalcResponses(const MechanismFile& file, const StateS
     for (int i = 0; i < response.points; ++i) {
       curve.frequency.push_back(response.low * std::exp(ratio * i / (response.points - 1)));
     }
-    curve.values = solve::CalcFrequencyResponse(space.linear.A, space.B.col(u), space.C.row(y),
-                                                space.D(y, u), curve.frequency);
+    if (space.linear.A.rows() > 0) {
+      curve.values = solve::CalcFrequencyResponse(space.linear.A, space.B.col(u), space.C.row(y),
+                                                  space.D(y, u), curve.frequency);
+    } else {  // driven throughout
+      curve.values.assign(curve.frequency.size(), space.D(y, u));
+    }
     curves.push_back(std::move(curve));
   }
   return curves;

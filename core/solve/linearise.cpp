@@ -150,14 +150,9 @@ std::vector<std::complex<double>> CalcFrequencyResponse(const Eigen::MatrixXd& A
                                                         std::span<const double> frequencies) {
   std::vector<std::complex<double>> response;
   response.reserve(frequencies.size());
-  const int n = static_cast<int>(A.rows());
   // one Hessenberg form A = Q H Qᵀ for all frequencies would save a factor of n; sizes are small
   const Eigen::VectorXcd right = B.cast<std::complex<double>>();
   for (double frequency : frequencies) {
-    if (n == 0) {
-      response.emplace_back(D);
-      continue;
-    }
     Eigen::MatrixXcd system = -A.cast<std::complex<double>>();
     system.diagonal().array() += std::complex<double>(0, 2 * std::numbers::pi * frequency);
     const Eigen::VectorXcd x = system.partialPivLu().solve(right);

@@ -38,7 +38,7 @@ Linearisation Linearise(const mechanism::System& system, double time, std::span<
 Eigen::VectorXd MakeInputColumn(const Linearisation& linearisation,
                                 const Eigen::Ref<const Eigen::VectorXd>& acceleration);
 
-/// C (iω - A)⁻¹ B + D for one output and one input, per frequency [Hz].
+/// C (iω - A)⁻¹ B + D for one output and one input, per frequency [Hz]; A is not empty.
 std::vector<std::complex<double>> CalcFrequencyResponse(const Eigen::MatrixXd& A,
                                                         const Eigen::VectorXd& B,
                                                         const Eigen::RowVectorXd& C, double D,

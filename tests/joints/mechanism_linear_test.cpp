@@ -89,10 +89,10 @@ TEST(StateSpace, AUnitOfAMotorOrForceDoesWhatDirectChangesDo) {
     const int nv = c.mechanism.system.model.velocities;
     const Eigen::VectorXd D = c.space.D.col(inputs[k]);
     // both linear in the force: rounding of accelerations near 100
-    EXPECT_LE((after.acceleration - before.acceleration - D.segment(2 * nv, nv)).norm(), 1e-10);
+    EXPECT_LE((after.acceleration - before.acceleration - D.segment(nv + nv, nv)).norm(), 1e-10);
     EXPECT_LE((after.reaction - before.reaction - D.tail(before.reaction.size())).norm(), 1e-9);
     EXPECT_LE((c.space.linear.velocity_basis * c.space.B.col(inputs[k]).segment(1, 1) -
-               D.segment(2 * nv, nv))
+               D.segment(nv + nv, nv))
                   .norm(),
               1e-10);
   }
@@ -121,7 +121,7 @@ TEST(StateSpace, AccelerationsAndReactionsFollowPositionAndVelocity) {
         (side[1].acceleration - side[0].acceleration) / (2 * kStep);
     const Eigen::VectorXd reaction = (side[1].reaction - side[0].reaction) / (2 * kStep);
     // central differences: error of order step² times third derivatives, rounding over step
-    EXPECT_LE((acceleration - c.space.C.middleRows(2 * nv, nv).col(direction)).norm(),
+    EXPECT_LE((acceleration - c.space.C.middleRows(nv + nv, nv).col(direction)).norm(),
               1e-6 * (1 + acceleration.norm()));
     EXPECT_LE((reaction - c.space.C.bottomRows(model.rows).col(direction)).norm(),
               1e-6 * (1 + reaction.norm()));
@@ -194,6 +194,23 @@ responses:
       const std::complex<double> expected = std::pow(s, k) / (300.0 + 4.0 * s + 2.0 * s * s);
       EXPECT_LE(std::abs(curves[k].values[i] - expected), 1e-12 * (std::abs(expected) + 0.01));
     }
+  }
+}
+
+// What a motor on a driven crank does reaches the drive alone, at every frequency.
+TEST(StateSpace, ADrivenMechanismRespondsAtOnce) {
+  const MechanismFile file = ReadMechanismText(
+      Replace(
+          Replace(kFourBar, "{from: load, to: C.x.reaction}", "{from: drive, to: turn.reaction}"),
+          "simulation: {start_at_rest: true,",
+          "motions:\n  turn: {joint: A, start: 1.0471975511965976}\nsimulation: {"),
+      "bar.yaml");
+  const StateSpace space = CalcStateSpace(file, MakeMechanism(file));
+  EXPECT_EQ(space.linear.A.rows(), 0);
+  const ResponseCurve curve = CalcResponses(file, space).at(1);
+  EXPECT_EQ(curve.values.size(), 200);
+  for (const std::complex<double>& value : curve.values) {
+    EXPECT_LE(std::abs(value + 1.0), 1e-12);
   }
 }
 

@@ -163,7 +163,8 @@ TEST_F(UrdfSidecar, MistakesAreNamedWithFileLineAndKey) {
       {"  lift: {angle: 0.3,", "  lift: {displacement: 0.3,",
        "crane.yaml:4: start.lift.displacement"},
       {"  lift: {angle: 0.3,", "  lift: {angle: 0.3 m,", "crane.yaml:4: start.lift.angle"},
-      {"  lift: {angle: 0.3,", "  lift: {position: [1, 2],", "crane.yaml:4: start.lift.position: found 2 values, expected 1"},
+      {"  lift: {angle: 0.3,", "  lift: {position: [1, 2],",
+       "crane.yaml:4: start.lift.position: found 2 values, expected 1"},
       {"b: jib", "b: jibb", "crane.yaml:7: springs.cable.b: found 'jibb'"},
       {"hoist: {joint: lift", "hoist: {joint: lfit", "crane.yaml:10: motors.hoist.joint"},
   };
