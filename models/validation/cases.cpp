@@ -3,11 +3,22 @@
 namespace kingpin::validation {
 
 std::vector<Case> ListCases() {
-  return {MakePendulumCase(),    MakeFourBarRowCase(),        MakeSqueezerCase(),
-          MakeBricardCase(),     MakeGovernorCase(),          MakeBicycleCase(),
-          MakeFreeBodyCase(),    MakeHeavyTopCase(),          MakeDoublePendulumCase(),
-          MakeSliderCrankCase(), MakeCoulombOscillatorCase(), MakeStickSlipCase(),
-          MakeInclineCase(),     MakeUniversalJointCase(),    MakeBeamCase(),
+  return {MakePendulumCase(),
+          MakeFourBarRowCase(),
+          MakeSqueezerCase(),
+          MakeBricardCase(),
+          MakeGovernorCase(),
+          MakeBicycleCase(),
+          MakeFreeBodyCase(),
+          MakeHeavyTopCase(),
+          MakeDoublePendulumCase(),
+          MakeSliderCrankCase(),
+          MakeCoulombOscillatorCase(),
+          MakeStickSlipCase(),
+          MakeInclineCase(),
+          MakeEveryJointCase(),
+          MakeUniversalJointCase(),
+          MakeBeamCase(),
           MakeMountsCase()};
 }
 

@@ -20,6 +20,7 @@ Case MakeSliderCrankCase();
 Case MakeCoulombOscillatorCase();
 Case MakeStickSlipCase();
 Case MakeInclineCase();
+Case MakeEveryJointCase();
 Case MakeUniversalJointCase();
 Case MakeBeamCase();
 Case MakeMountsCase();
