@@ -137,6 +137,22 @@ Model MakePlanarFourBars(int count, std::vector<double>& q) {
   return a.Finish(q);
 }
 
+Model MakeChain(int bodies, bool loops, std::vector<double>& q) {
+  Assembler a;
+  const Vector3<double> axes[3] = {kZ, kY, kX};
+  const auto get_point = [](double n) {
+    return Vector3<double>{0.1 * n, 0.2 * std::cos(0.7 * n), 0.2 * std::sin(0.7 * n)};
+  };
+  int link = 0, last_tenth = 0;
+  for (int n = 0; n < bodies; ++n) {
+    link = a.Add(link, JointKind::kRevolute, get_point(n), axes[n % 3], 1, get_point(n + 0.5), 0.1);
+    if (!loops || (n + 1) % 10 != 0) continue;
+    a.Close(link, last_tenth, get_point(n + 1));
+    last_tenth = link;
+  }
+  return a.Finish(q);
+}
+
 Model MakeHumanoid(std::vector<double>& q) {
   Assembler a;
   const int base = a.Add(0, JointKind::kFree, {0, 0, 1}, kZ, 20, {0, 0, 1.1}, 0.2);

@@ -17,6 +17,11 @@ Model MakeSpatialFourBars(int count, std::vector<double>& q);
 /// coordinates and 3 rows per loop.
 Model MakePlanarFourBars(int count, std::vector<double>& q);
 
+/// A chain of bodies on revolute joints with axes z, y, x in turn, along a coil; with `loops`,
+/// every tenth body is held at a point to the tenth before it (the first to the world): 10
+/// coordinates and 3 rows per loop.
+Model MakeChain(int bodies, bool loops, std::vector<double>& q);
+
 /// Free base and 30 revolute joints, branched like a walking robot.
 Model MakeHumanoid(std::vector<double>& q);
 

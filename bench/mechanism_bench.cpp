@@ -1,3 +1,5 @@
+#include <chrono>
+#include <cmath>
 #include <random>
 
 #include <benchmark/benchmark.h>
@@ -52,6 +54,46 @@ BENCHMARK_CAPTURE(BM_Accelerations, spatial_four_bars_10, MakeSpatial10)->Arg(1)
 BENCHMARK_CAPTURE(BM_Accelerations, spatial_four_bars_40, MakeSpatial40)->Arg(1)->Arg(8);
 BENCHMARK_CAPTURE(BM_Accelerations, planar_four_bars_10, MakePlanar10)->Arg(1)->Arg(8);
 BENCHMARK_CAPTURE(BM_Accelerations, humanoid, MakeHumanoid)->Arg(1)->Arg(8);
+
+/// Time of one scalar evaluation [s]: the least of many short measurements.
+double MeasureEvaluation(const Model& model, const std::vector<double>& q) {
+  using Clock = std::chrono::steady_clock;
+  const auto kernel = MakeLaneAccelerations(model, 1);
+  std::vector<double> v(model.velocities, 0.1), force(model.velocities),
+      acceleration(model.velocities), reaction(std::max(1, model.rows));
+  const int repeats = std::max(1, 2000 / model.velocities);
+  double least = 1;
+  for (int measurement = 0; measurement < 200; ++measurement) {
+    const auto start = Clock::now();
+    for (int k = 0; k < repeats; ++k) {
+      kernel->Calc(q.data(), v.data(), force.data(), acceleration.data(), reaction.data());
+    }
+    const std::chrono::duration<double> time = Clock::now() - start;
+    least = std::min(least, time.count() / repeats);
+  }
+  return least;
+}
+
+/// How the cost of one evaluation grows along a chain of 10 to 1000 bodies: the slope of log(time)
+/// over log(bodies), by least squares; 1 is linear.
+void BM_GrowthAlongChain(benchmark::State& state, bool loops) {
+  for (auto _ : state) {
+    double x = 0, y = 0, xx = 0, xy = 0;
+    const int sizes[] = {10, 30, 100, 300, 1000};
+    for (int bodies : sizes) {
+      std::vector<double> q;
+      const double time = MeasureEvaluation(MakeChain(bodies, loops, q), q);
+      state.counters["ns_per_body_" + std::to_string(bodies)] = 1e9 * time / bodies;
+      const double lx = std::log(bodies), ly = std::log(time);
+      x += lx / 5, y += ly / 5, xx += lx * lx / 5, xy += lx * ly / 5;
+    }
+    state.counters["slope"] = (xy - x * y) / (xx - x * x);
+  }
+}
+BENCHMARK_CAPTURE(BM_GrowthAlongChain, open, false)->Iterations(1)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(BM_GrowthAlongChain, loop_every_tenth_body, true)
+    ->Iterations(1)
+    ->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace kingpin::mechanism

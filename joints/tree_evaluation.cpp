@@ -5,6 +5,7 @@
 
 #include "core/mechanism/accelerations.h"
 #include "core/mechanism/inverse_dynamics.h"
+#include "core/mechanism/project.h"
 
 namespace kingpin::joints {
 
@@ -16,15 +17,6 @@ using mechanism::Workspace;
 void ClearForces(Workspace<double>& w) {
   std::fill(w.f.begin(), w.f.end(), math::Wrench<double>{});
   std::fill(w.generalised.begin(), w.generalised.end(), 0.0);
-}
-
-Eigen::MatrixXd ReadMassMatrix(const Model& model, const Workspace<double>& w) {
-  Eigen::MatrixXd M = Eigen::MatrixXd::Zero(model.velocities, model.velocities);
-  for (int i = 0; i < model.velocities; ++i) {
-    const int* slot = &model.mass_slots[model.mass_begin[i]];
-    for (int j = i; j >= 0; j = model.dof_parent[j]) M(i, j) = M(j, i) = w.k[*slot++];
-  }
-  return M;
 }
 
 void SetEnergy(const Model& model, const Workspace<double>& w, TreeEvaluation& result) {
@@ -75,11 +67,12 @@ TreeEvaluation CalcTreeEvaluation(const Mechanism& mechanism, std::span<const do
   mechanism::UpdateVelocities(model, v.data(), w);
   SetEnergy(model, w, result);
 
+  result.M = mechanism::CalcEquationMatrix(model, q);
+  const std::vector<double> still(n, 0.0);
   ClearForces(w);
-  mechanism::AssembleEquations<double>(model, nullptr, w);
-  result.M = ReadMassMatrix(model, w);
-  for (int i = 0; i < n; ++i) result.bias[i] = -w.k[model.pattern.GetRightSideSlot(i)];
+  mechanism::CalcInverseDynamics(model, still.data(), w, result.bias.data());
 
+  mechanism::UpdateVelocities(model, v.data(), w);
   ClearForces(w);
   std::copy(force.begin(), force.end(), w.generalised.begin());
   mechanism::SolveAccelerations(model, {}, w, {result.qdd.data(), static_cast<size_t>(n)}, {});

@@ -4,13 +4,11 @@
 
 namespace kingpin::math {
 
-SparseLdltPattern::SparseLdltPattern(std::span<const int> order,
-                                     std::span<const std::pair<int, int>> entries)
-    : unknowns_(static_cast<int>(order.size())), position_(order.size()) {
-  for (int k = 0; k < unknowns_; ++k) position_[order[k]] = k;
-  // Columns as sorted sets; eliminating column j joins its rows to the column of the first of them
-  // (its parent in the elimination tree), which is where all fill comes from.
-  std::vector<std::vector<int>> columns(unknowns_);
+// Columns as sorted sets; eliminating column j joins its rows to the column of the first of them
+// (its parent in the elimination tree), which is where all fill comes from.
+void SparseLdltPattern::SetColumns(std::span<const std::pair<int, int>> entries, bool fill,
+                                   Columns& columns) {
+  columns.resize(unknowns_);
   for (const auto& [i, j] : entries) {
     const int a = std::min(position_[i], position_[j]), b = std::max(position_[i], position_[j]);
     if (a != b) columns[a].push_back(b);
@@ -20,7 +18,7 @@ SparseLdltPattern::SparseLdltPattern(std::span<const int> order,
     std::vector<int>& rows = columns[j];
     std::sort(rows.begin(), rows.end());
     rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
-    if (!rows.empty()) {
+    if (fill && !rows.empty()) {
       columns[rows[0]].insert(columns[rows[0]].end(), rows.begin() + 1, rows.end());
     }
     rows.push_back(unknowns_);  // the right side
@@ -28,6 +26,24 @@ SparseLdltPattern::SparseLdltPattern(std::span<const int> order,
     begin_[j + 1] = unknowns_ + 1 + static_cast<int>(row_.size());
   }
   size_ = begin_[unknowns_];
+}
+
+SparseLdltPattern SparseLdltPattern::MakeStorage(int unknowns,
+                                                 std::span<const std::pair<int, int>> entries) {
+  SparseLdltPattern pattern;
+  pattern.unknowns_ = unknowns;
+  for (int k = 0; k < unknowns; ++k) pattern.position_.push_back(k);
+  Columns columns;
+  pattern.SetColumns(entries, false, columns);
+  return pattern;
+}
+
+SparseLdltPattern::SparseLdltPattern(std::span<const int> order,
+                                     std::span<const std::pair<int, int>> entries)
+    : unknowns_(static_cast<int>(order.size())), position_(order.size()) {
+  for (int k = 0; k < unknowns_; ++k) position_[order[k]] = k;
+  Columns columns;
+  SetColumns(entries, true, columns);
   // targets: for every pair (a, b) of rows of a column, the slot of (row b, row a)
   for (int j = 0; j < unknowns_; ++j) {
     const std::vector<int>& rows = columns[j];

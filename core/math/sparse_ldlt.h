@@ -28,6 +28,10 @@ class SparseLdltPattern {
   /// non-zero, in any order, either triangle, diagonal not needed.
   SparseLdltPattern(std::span<const int> order, std::span<const std::pair<int, int>> entries);
 
+  /// Storage for the entries alone, in their own order, without the plan of an elimination: to
+  /// assemble samples before there is one.
+  static SparseLdltPattern MakeStorage(int unknowns, std::span<const std::pair<int, int>> entries);
+
   int unknowns() const { return unknowns_; }
   int size() const { return size_; }  ///< numbers in the storage of one matrix and right side
   /// Where entry (i, j) is stored; -1 if it is not in the pattern.
@@ -85,6 +89,9 @@ class SparseLdltPattern {
   }
 
  private:
+  using Columns = std::vector<std::vector<int>>;
+  void SetColumns(std::span<const std::pair<int, int>> entries, bool fill, Columns& columns);
+
   int unknowns_ = 0;
   int size_ = 0;
   std::vector<int> position_;

@@ -18,6 +18,8 @@ struct Motion {
     return {a.w - b.w, a.v - b.v};
   }
   KINGPIN_INLINE friend Motion operator*(const S& s, const Motion& a) { return {s * a.w, s * a.v}; }
+  /// The same motion with its reference point moved to o.
+  KINGPIN_INLINE Motion About(const Vector3<S>& o) const { return {w, v + Cross(w, o)}; }
   /// Velocity of the body's point at p (from the reference point).
   KINGPIN_INLINE Vector3<S> At(const Vector3<S>& p) const { return v + Cross(w, p); }
 };
@@ -34,6 +36,8 @@ struct Wrench {
     return {a.t - b.t, a.f - b.f};
   }
   KINGPIN_INLINE friend Wrench operator*(const S& s, const Wrench& a) { return {s * a.t, s * a.f}; }
+  /// The same wrench with its reference point moved to o.
+  KINGPIN_INLINE Wrench About(const Vector3<S>& o) const { return {t - Cross(o, f), f}; }
 };
 
 /// The wrench of force f at point p.
@@ -71,6 +75,9 @@ struct SpatialInertia {
   KINGPIN_INLINE friend SpatialInertia operator+(const SpatialInertia& a, const SpatialInertia& b) {
     return {a.m + b.m,   a.h + b.h,   a.xx + b.xx, a.yy + b.yy,
             a.zz + b.zz, a.xy + b.xy, a.xz + b.xz, a.yz + b.yz};
+  }
+  KINGPIN_INLINE friend SpatialInertia operator*(const S& s, const SpatialInertia& a) {
+    return {s * a.m, s * a.h, s * a.xx, s * a.yy, s * a.zz, s * a.xy, s * a.xz, s * a.yz};
   }
   /// Momentum of a motion: t = I w + h x v, f = m v + w x h.
   KINGPIN_INLINE friend Wrench<S> operator*(const SpatialInertia& I, const Motion<S>& a) {

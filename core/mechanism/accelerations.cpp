@@ -7,29 +7,17 @@
 
 #include <fmt/format.h>
 
+#include "core/mechanism/entries.h"
+
 namespace kingpin::mechanism {
 
 namespace {
 
 // The equations read back from the factor's storage before the factorisation, as dense matrices.
 Eigen::MatrixXd ExpandMatrix(const Model& model, const Workspace<double>& w) {
-  const int nv = model.velocities, n = nv + model.rows;
-  Eigen::MatrixXd K = Eigen::MatrixXd::Zero(n, n);
-  for (int i = 0; i < nv; ++i) {
-    const int* slot = &model.mass_slots[model.mass_begin[i]];
-    for (int j = i; j >= 0; j = model.dof_parent[j]) K(i, j) = K(j, i) = w.k[*slot++];
-  }
-  for (int r = 0; r < model.rows; ++r) {
-    for (int s = model.support_begin[r]; s < model.support_begin[r + 1]; ++s) {
-      const Model::Support& support = model.supports[s];
-      K(nv + r, support.dof) = K(support.dof, nv + r) = w.k[support.slot];
-    }
-  }
-  const int* slot = model.linear_slots.data();
-  for (const LinearRow& row : model.linear) {
-    for (const LinearRow::Term& term : row.terms) {
-      K(nv + row.row, term.v) = K(term.v, nv + row.row) = w.k[*slot++];
-    }
+  Eigen::MatrixXd K = Eigen::MatrixXd::Zero(model.unknowns(), model.unknowns());
+  for (const auto& [i, j] : ListEntries(model)) {
+    K(i, j) = K(j, i) = w.k[model.pattern.GetSlot(i, j)];
   }
   return K;
 }
@@ -40,10 +28,10 @@ Eigen::MatrixXd ExpandMatrix(const Model& model, const Workspace<double>& w) {
 void SolveSingular(const Model& model, const Eigen::MatrixXd& K, const Eigen::VectorXd& right,
                    std::span<const double> active, std::span<double> acceleration,
                    std::span<double> reaction) {
-  const int nv = model.velocities;
+  const int nv = model.coordinates, all = model.unknowns() - nv;  // rows of cuts come last
   std::vector<int> rows;
-  for (int r = 0; r < model.rows; ++r) {
-    if (active[r] != 0) rows.push_back(r);
+  for (int r = 0; r < all; ++r) {
+    if (r >= model.rows || active[r] != 0) rows.push_back(r);
   }
   const int count = static_cast<int>(rows.size());
   Eigen::MatrixXd B(nv, count);
@@ -63,28 +51,33 @@ void SolveSingular(const Model& model, const Eigen::MatrixXd& K, const Eigen::Ve
   if (!(miss.norm() <= 1e-6 * (c.norm() + (B.transpose() * free).norm()) + 1e-300)) {
     int worst = 0;
     miss.cwiseAbs().maxCoeff(&worst);
-    throw std::runtime_error(fmt::format(
-        "the constraints contradict each other in this position: row '{}' cannot be met",
-        model.row_names[rows[worst]]));
+    if (rows[worst] < model.rows) {
+      throw std::runtime_error(fmt::format(
+          "the constraints contradict each other in this position: row '{}' cannot be met",
+          model.row_names[rows[worst]]));
+    }
+    throw std::runtime_error("the constraints contradict each other in this position");
   }
-  Eigen::Map<Eigen::VectorXd>(acceleration.data(), nv) = mass.matrixU().solve(y);
+  const Eigen::VectorXd a = mass.matrixU().solve(y);
+  std::copy(a.data(), a.data() + model.velocities, acceleration.begin());
   // M q̈ - D R = F:  B R = y - L⁻¹F
   const Eigen::VectorXd R = decomposition.transpose().solve(correction);
   std::fill(reaction.begin(), reaction.end(), 0.0);
-  for (int k = 0; k < count; ++k) reaction[rows[k]] = R[k];
+  for (int k = 0; k < count; ++k) {
+    if (rows[k] < model.rows) reaction[rows[k]] = R[k];
+  }
 }
 
 }  // namespace
 
 void FactoriseAndSolve(const Model& model, Workspace<double>& w, std::span<double> acceleration,
                        std::span<double> reaction) {
-  const int nv = model.velocities;
   w.kept_k = w.k;
   w.singular = false;
   model.pattern.Factorise(w.k.data());
   if (!PivotsAreSafe(model, w)) {
-    Eigen::VectorXd right(nv + model.rows);
-    for (int i = 0; i < nv + model.rows; ++i) {
+    Eigen::VectorXd right(model.unknowns());
+    for (int i = 0; i < model.unknowns(); ++i) {
       right[i] = w.kept_k[model.pattern.GetRightSideSlot(i)];
     }
     w.k = w.kept_k;
@@ -99,8 +92,10 @@ void FactoriseAndSolve(const Model& model, Workspace<double>& w, std::span<doubl
     return;
   }
   model.pattern.BackSubstitute(w.k.data(), w.x.data());
-  for (int i = 0; i < nv; ++i) acceleration[i] = w.x[model.pattern.position(i)];
-  for (int r = 0; r < model.rows; ++r) reaction[r] = -w.x[model.pattern.position(nv + r)];
+  for (int i = 0; i < model.velocities; ++i) acceleration[i] = w.x[model.pattern.position(i)];
+  for (int r = 0; r < model.rows; ++r) {
+    reaction[r] = -w.x[model.pattern.position(model.coordinates + r)];
+  }
 }
 
 void SolveAccelerations(const Model& model, std::span<const double> drive_acceleration,

@@ -1,6 +1,9 @@
 #include "core/mechanism/compile.h"
 
+#include <Eigen/Dense>
 #include <algorithm>
+#include <cmath>
+#include <map>
 #include <random>
 #include <stdexcept>
 
@@ -8,13 +11,13 @@
 
 #include "core/mechanism/dynamics.h"
 #include "core/mechanism/elimination_order.h"
+#include "core/mechanism/entries.h"
 #include "core/mechanism/project.h"
+#include "core/mechanism/row_groups.h"
 
 namespace kingpin::mechanism {
 
 namespace {
-
-constexpr int kSamples = 6;
 
 // Coordinates on the way from a link to the world, the link's own last first.
 void AppendPath(const Model& model, int link, std::vector<int>& path) {
@@ -31,8 +34,8 @@ void SetSupport(const Model& model, int a, int b, std::vector<Model::Support>& s
     from_a.pop_back();
     from_b.pop_back();
   }
-  for (int dof : from_a) support.push_back({dof, 1, 0});
-  for (int dof : from_b) support.push_back({dof, -1, 0});
+  for (int dof : from_a) support.push_back({dof, 1});
+  for (int dof : from_b) support.push_back({dof, -1});
 }
 
 void SetTree(Model& model) {
@@ -74,79 +77,113 @@ void SetSupports(Model& model) {
   }
 }
 
-std::vector<std::pair<int, int>> ListEntries(const Model& model) {
-  std::vector<std::pair<int, int>> entries;
+// The coordinates in groups that M does not couple, the last of the tree first within a group.
+std::vector<std::vector<int>> GroupCoordinates(const Model& model) {
+  std::vector<std::vector<int>> groups;
+  std::vector<int> group(model.velocities, -1);
+  std::vector<int> of_segment(model.segments.size(), -1);
   for (int i = 0; i < model.velocities; ++i) {
-    for (int j = model.dof_parent[i]; j >= 0; j = model.dof_parent[j]) entries.emplace_back(i, j);
-  }
-  for (int r = 0; r < model.rows; ++r) {
-    for (int s = model.support_begin[r]; s < model.support_begin[r + 1]; ++s) {
-      entries.emplace_back(model.velocities + r, model.supports[s].dof);
+    const int segment = model.segment[model.dof_link[i]], before = model.segment_parent[i];
+    int& own = group[i];
+    own = before >= 0 ? group[before] : segment != 0 ? of_segment[segment] : -1;
+    if (own < 0) {
+      own = static_cast<int>(groups.size());
+      groups.emplace_back();
+      if (segment != 0) of_segment[segment] = own;
     }
+    groups[own].push_back(i);
   }
-  for (const LinearRow& row : model.linear) {
-    for (const LinearRow::Term& term : row.terms) {
-      entries.emplace_back(model.velocities + row.row, term.v);
-    }
+  for (std::vector<int>& members : groups) std::reverse(members.begin(), members.end());
+  for (int s = 1; s <= model.CountCuts(); ++s) {
+    for (int c = 5; c >= 0; --c) groups[of_segment[s]].push_back(model.GetCutCoordinate(s) + c);
   }
-  return entries;
+  return groups;
 }
 
-void SetSlots(Model& model) {
-  model.mass_slots.clear();
-  model.mass_begin.assign(1, 0);
-  for (int i = 0; i < model.velocities; ++i) {
-    for (int j = i; j >= 0; j = model.dof_parent[j])
-      model.mass_slots.push_back(model.pattern.GetSlot(i, j));
-    model.mass_begin.push_back(static_cast<int>(model.mass_slots.size()));
-  }
-  for (int r = 0; r < model.rows; ++r) {
-    for (int s = model.support_begin[r]; s < model.support_begin[r + 1]; ++s) {
-      model.supports[s].slot = model.pattern.GetSlot(model.supports[s].dof, model.velocities + r);
+Eigen::MatrixXd GetMassBlock(const Model& model, const std::vector<int>& group,
+                             const Workspace<double>& w) {
+  const int n = static_cast<int>(group.size());
+  Eigen::MatrixXd M = Eigen::MatrixXd::Zero(n, n);
+  for (int i = 0; i < n; ++i) {
+    for (int j = 0; j <= i; ++j) {
+      const int slot = model.pattern.GetSlot(group[i], group[j]);
+      if (slot >= 0) M(i, j) = M(j, i) = w.k[slot];
     }
   }
-  model.linear_slots.clear();
-  for (const LinearRow& row : model.linear) {
-    for (const LinearRow::Term& term : row.terms) {
-      model.linear_slots.push_back(model.pattern.GetSlot(term.v, model.velocities + row.row));
-    }
-  }
+  return M;
 }
 
 // Every motion of the tree must move something that has inertia.
-void CheckMass(const Model& model, const Eigen::MatrixXd& K) {
-  const int nv = model.velocities;
-  Eigen::MatrixXd M = K.topLeftCorner(nv, nv);
+void CheckMass(const Model& model, const std::vector<int>& group, Eigen::MatrixXd M) {
+  const Eigen::VectorXd whole = M.diagonal();
+  const int n = static_cast<int>(group.size());
   // leaves first, as the elimination goes: the pivot of a coordinate is the inertia that is left to
   // it when the links it carries may move freely
-  for (int i = nv - 1; i >= 0; --i) {
-    if (!(M(i, i) > 1e-12 * K(i, i)) || !(K(i, i) > 0)) {
+  for (int k = 0; k < n && group[k] < model.velocities; ++k) {
+    const int i = group[k], rest = n - k - 1;
+    if (!(M(k, k) > 1e-12 * whole[k]) || !(whole[k] > 0)) {
       throw std::invalid_argument(fmt::format(
           "nothing that link '{}' carries has inertia along its coordinate {}",
           model.links[model.dof_link[i]].name, i - model.links[model.dof_link[i]].v + 1));
     }
-    M.topLeftCorner(i, i) -= M.col(i).head(i) * M.row(i).head(i) / M(i, i);
+    M.bottomRightCorner(rest, rest) -= M.col(k).tail(rest) * M.row(k).tail(rest) / M(k, k);
   }
 }
+
+using Entries = std::vector<std::pair<int, int>>;
 
 // Units for each unknown in which the matrix has entries near one: coordinates to unit inertia,
 // rows to a gradient of unit length in these units. A gradient that is rounding beside the largest
 // (an axis turned by 90 degrees leaves 6e-17 of it) counts as none: scaled up it would pass for a
 // row that holds something.
-Eigen::VectorXd CalcScale(const Model& model, const Eigen::MatrixXd& K) {
-  const int nv = model.velocities;
-  Eigen::VectorXd scale(K.rows());
-  scale.head(nv) = K.diagonal().head(nv).cwiseSqrt().cwiseInverse();
+std::vector<double> CalcScale(const Model& model, const Entries& entries,
+                              const Workspace<double>& w) {
+  std::vector<double> scale(model.unknowns(), 0.0);
+  for (int i = 0; i < model.coordinates; ++i) scale[i] = 1 / std::sqrt(w.k[i]);
+  for (const auto& [row, coordinate] : entries) {
+    if (row < model.coordinates) continue;
+    const double x = w.k[model.pattern.GetSlot(row, coordinate)] * scale[coordinate];
+    scale[row] += x * x;
+  }
   double largest = 0;
-  for (int r = nv; r < K.rows(); ++r) {
-    scale[r] = K.col(r).head(nv).cwiseProduct(scale.head(nv)).norm();
+  for (int r = model.coordinates; r < model.unknowns(); ++r) {
+    scale[r] = std::sqrt(scale[r]);
     largest = std::max(largest, scale[r]);
   }
-  for (int r = nv; r < K.rows(); ++r) {
+  for (int r = model.coordinates; r < model.unknowns(); ++r) {
     const double norm = scale[r] > 1e-13 * largest ? scale[r] : largest;
-    scale[r] = norm > 0 ? 1.0 / norm : 1.0;
+    scale[r] = norm > 0 ? 1 / norm : 1.0;
   }
   return scale;
+}
+
+// The largest pivots that rows can have: the diagonal of Dᵀ M⁻¹ D.
+std::vector<double> CalcLargestPivots(const Model& model,
+                                      const std::vector<std::vector<int>>& groups,
+                                      const Entries& entries, const std::vector<double>& scale,
+                                      const Workspace<double>& w) {
+  std::vector<int> group_of(model.coordinates, 0), place(model.coordinates, 0);
+  for (size_t g = 0; g < groups.size(); ++g) {
+    for (size_t k = 0; k < groups[g].size(); ++k) {
+      group_of[groups[g][k]] = static_cast<int>(g);
+      place[groups[g][k]] = static_cast<int>(k);
+    }
+  }
+  // the parts of the rows in each group: (row, place) -> gradient
+  std::vector<std::map<int, Eigen::VectorXd>> parts(groups.size());
+  for (const auto& [row, coordinate] : entries) {
+    if (row < model.coordinates) continue;
+    Eigen::VectorXd& part = parts[group_of[coordinate]][row];
+    if (part.size() == 0) part.setZero(static_cast<int>(groups[group_of[coordinate]].size()));
+    part[place[coordinate]] = w.k[model.pattern.GetSlot(row, coordinate)] * scale[row];
+  }
+  std::vector<double> largest(model.unknowns(), 0.0);
+  for (size_t g = 0; g < groups.size(); ++g) {
+    if (parts[g].empty()) continue;
+    const Eigen::LDLT<Eigen::MatrixXd> M(GetMassBlock(model, groups[g], w));
+    for (const auto& [row, part] : parts[g]) largest[row] += part.dot(M.solve(part));
+  }
+  return largest;
 }
 
 }  // namespace
@@ -154,27 +191,36 @@ Eigen::VectorXd CalcScale(const Model& model, const Eigen::MatrixXd& K) {
 void CompileTopology(Model& model) {
   SetTree(model);
   SetSupports(model);
+  SetWholeTree(model);
   model.redundant.assign(model.rows, 0);
   model.switching.resize(model.rows, 0);
 }
 
-void CompileElimination(Model& model, std::span<const double> q) {
-  const std::vector<std::pair<int, int>> entries = ListEntries(model);
-  const int n = model.velocities + model.rows;
+void CompileElimination(Model& model, std::span<const double> q, const CutRule& rule) {
+  CutTree(model, rule);
   model.redundant.assign(model.rows, 0);
-
-  // A first plan in the given order, whose storage only serves to read the samples.
-  std::vector<int> order(n);
-  for (int k = 0; k < n; ++k) order[k] = k;
-  model.pattern = math::SparseLdltPattern(order, entries);
+  const Entries entries = ListEntries(model);
+  const std::vector<std::vector<int>> groups = GroupCoordinates(model);
+  const std::vector<RowGroup> row_groups = GroupRows(model);
+  const int n = model.unknowns();
+  model.pattern = math::SparseLdltPattern::MakeStorage(n, entries);
   model.pivot_limits.assign(n, 0);
   SetSlots(model);
   if (n == 0) return;  // everything is fixed to the world
 
-  std::vector<Eigen::MatrixXd> samples;
-  Eigen::VectorXd scale;
+  SampledMatrix samples;
+  samples.coordinates = model.coordinates;
+  samples.diagonal.resize(n);
+  samples.largest_pivot.resize(n);
+  std::vector<std::vector<Eigen::MatrixXd>> gradients;
+  std::vector<double> scale;
+  const std::vector<double> none(std::max(model.rows, model.velocities), 0.0);
   std::mt19937_64 random(20110129);
   std::normal_distribution<double> normal;
+  Workspace<double> w(model);
+  for (const auto& [i, j] : entries) {
+    if (i != j) samples.entries.push_back({i, j, {}});
+  }
   for (int s = 0; s < kSamples; ++s) {
     std::vector<double> state(q.begin(), q.end());
     if (s > 0) {
@@ -182,18 +228,42 @@ void CompileElimination(Model& model, std::span<const double> q) {
       for (double& d : direction) d = 0.3 * normal(random);
       MoveOnConstraints(model, direction, state);
     }
-    Eigen::MatrixXd K = CalcEquationMatrix(model, state);
-    if (s == 0) CheckMass(model, K);
-    if (s == 0) scale = CalcScale(model, K);
-    samples.push_back(scale.asDiagonal() * K * scale.asDiagonal());
+    UpdatePositions(model, state.data(), w);
+    UpdateVelocities(model, none.data(), w);
+    UpdateClosures(model, w);
+    std::fill(w.f.begin(), w.f.end(), Wrench<double>{});
+    AssembleEquations(model, none.data(), w);
+    if (s == 0) {
+      for (const auto& group : groups) CheckMass(model, group, GetMassBlock(model, group, w));
+      scale = CalcScale(model, entries, w);
+    }
+    for (int i = 0; i < n; ++i) samples.diagonal[i][s] = scale[i] * scale[i] * w.k[i];
+    for (auto& [i, j, value] : samples.entries) {
+      value[s] = scale[i] * scale[j] * w.k[model.pattern.GetSlot(i, j)];
+    }
+    const std::vector<double> largest = CalcLargestPivots(model, groups, entries, scale, w);
+    for (int i = 0; i < n; ++i) samples.largest_pivot[i][s] = largest[i];
+    gradients.push_back(CalcGroupGradients(model, row_groups, w));
+    for (size_t g = 0; g < row_groups.size(); ++g) {
+      for (size_t k = 0; k < row_groups[g].coordinates.size(); ++k) {
+        gradients[s][g].col(k) *= scale[row_groups[g].coordinates[k]];
+      }
+      for (size_t k = 0; k < row_groups[g].rows.size(); ++k) {
+        gradients[s][g].row(k) *= scale[model.coordinates + row_groups[g].rows[k]];
+      }
+    }
   }
-  EliminationOrder plan =
-      ChooseEliminationOrder(model.velocities, samples, model.switching, entries);
-  model.pattern = math::SparseLdltPattern(plan.order, entries);
-  model.redundant = std::move(plan.redundant);
+  FindRedundantRows(row_groups, gradients, model.switching, model.redundant);
+  samples.last.assign(n, 0);
+  for (int r = 0; r < model.rows; ++r) {
+    samples.last[model.coordinates + r] =
+        model.redundant[r] ? SampledMatrix::kOut : model.switching[r];
+  }
+  const EliminationOrder plan = ChooseEliminationOrder(samples);
+  model.pattern = math::SparseLdltPattern(plan.order, ListEntries(model));
   for (int k = 0; k < n; ++k) {
-    const int unknown = plan.order[k];
-    const bool out = unknown >= model.velocities && model.redundant[unknown - model.velocities];
+    const int unknown = plan.order[k], row = unknown - model.coordinates;
+    const bool out = row >= 0 && row < model.rows && model.redundant[row];
     model.pivot_limits[k] = out ? -0.5 : plan.pivot_limits[k] / (scale[unknown] * scale[unknown]);
   }
   SetSlots(model);

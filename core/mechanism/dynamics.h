@@ -2,6 +2,7 @@
 
 #include "core/mechanism/closures.h"
 #include "core/mechanism/kinematics.h"
+#include "core/mechanism/segments.h"
 
 namespace kingpin::mechanism {
 
@@ -29,17 +30,23 @@ KINGPIN_INLINE void UpdateInertias(const Model& model, Workspace<S>& w) {
 /// (composite rigid bodies and the recursive Newton-Euler algorithm in one sweep).
 template <class S>
 KINGPIN_INLINE void AssembleMassAndForces(const Model& model, Workspace<S>& w) {
+  const Motion<S>* axes = model.CountCuts() > 0 ? w.local_axes.data() : w.axes.data();
+  const int* cut_slot = model.cut_slots.data();
   for (int l = static_cast<int>(model.links.size()) - 1; l > 0; --l) {
     const Link& link = model.links[l];
+    if (const int s = model.starts_segment[l]) AssembleCut(model, s, cut_slot, w);
     for (int i = link.v + CountVelocities(link.kind) - 1; i >= link.v; --i) {
-      w.k[model.pattern.GetRightSideSlot(i)] = w.generalised[i] - Dot(w.axes[i], w.f[l]);
-      const Wrench<S> momentum = w.I[l] * w.axes[i];
+      w.k[model.pattern.GetRightSideSlot(i)] = w.generalised[i] - Dot(axes[i], w.f[l]);
+      const Wrench<S> momentum = w.I[l] * axes[i];
       const int* slot = &model.mass_slots[model.mass_begin[i]];
-      for (int j = i; j >= 0; j = model.dof_parent[j]) w.k[*slot++] = Dot(w.axes[j], momentum);
+      for (int j = i; j >= 0; j = model.segment_parent[j]) w.k[*slot++] = Dot(axes[j], momentum);
+      if (model.segment[l] == 0) continue;
+      const auto& [t, f] = momentum;
+      for (const S& x : {t.x, t.y, t.z, f.x, f.y, f.z}) w.k[*slot++] = x;
     }
-    if (link.parent != 0) {
-      w.I[link.parent] = w.I[link.parent] + w.I[l];
-      w.f[link.parent] = w.f[link.parent] + w.f[l];
+    if (const int carrier = model.carrier[l]) {
+      w.I[carrier] = w.I[carrier] + w.I[l];
+      w.f[carrier] = w.f[carrier] + w.f[l];
     }
   }
 }
@@ -51,17 +58,20 @@ KINGPIN_INLINE void AssembleConstraints(const Model& model, const S* drive_accel
                                         Workspace<S>& w) {
   for (int r = 0; r < model.rows; ++r) {
     const S active = w.active[r];
-    const int position = model.pattern.position(model.velocities + r);
+    const int position = model.pattern.position(model.coordinates + r);
     w.k[position] = active - S(1.0);
-    w.k[model.pattern.GetRightSideSlot(model.velocities + r)] =
+    w.k[model.pattern.GetRightSideSlot(model.coordinates + r)] =
         active * (drive_acceleration[r] - w.bias[r]);
-    for (int s = model.support_begin[r]; s < model.support_begin[r + 1]; ++s) {
-      const Model::Support& support = model.supports[s];
-      w.k[support.slot] = (active * S(support.sign)) * Dot(w.axes[support.dof], w.W[r]);
+    if (model.IsLeftOut(r)) continue;
+    for (int s = model.row_term_begin[r]; s < model.row_term_begin[r + 1]; ++s) {
+      const Model::RowTerm& term = model.row_terms[s];
+      w.k[term.slot] = (active * S(term.sign)) * Dot(w.axes[term.dof], w.W[r]);
     }
   }
+  AssembleCutTerms(model, w);
   const int* slot = model.linear_slots.data();
   for (const LinearRow& row : model.linear) {
+    if (model.IsLeftOut(row.row)) continue;
     for (const LinearRow::Term& term : row.terms) w.k[*slot++] = w.active[row.row] * S(term.factor);
   }
 }
@@ -84,12 +94,17 @@ inline bool PivotsAreSafe(const Model& model, const Workspace<double>& w) {
 ///
 ///   [ M  D ; Dᵀ  0 ] [q̈ ; -R] = [F ; s̈ - J̇v]
 ///
-/// that is M q̈ - D R = F, -Dᵀ q̈ = G of the paper's (4.1) with G = J̇v - s̈.
+/// that is M q̈ - D R = F, -Dᵀ q̈ = G of the paper's (4.1) with G = J̇v - s̈; of a deep tree in the
+/// larger but sparser form of segments.h.
 template <class S>
 KINGPIN_INLINE void AssembleEquations(const Model& model, const S* drive_acceleration,
                                       Workspace<S>& w) {
   for (int i = 0; i < model.pattern.size(); ++i) w.k[i] = S(0.0);
-  UpdateInertias(model, w);
+  if (model.CountCuts() > 0) {
+    UpdateSegmentInertias(model, w);
+  } else {
+    UpdateInertias(model, w);
+  }
   AssembleMassAndForces(model, w);
   AssembleConstraints(model, drive_acceleration, w);
 }

@@ -4,94 +4,184 @@
 #include <cmath>
 #include <limits>
 
+#include "core/mechanism/row_groups.h"
+
 namespace kingpin::mechanism {
 
 namespace {
 
-constexpr double kSafeShare = 0.1;   // of the largest pivot a row can have
-constexpr double kDependent = 1e-9;  // of the same: nothing but rounding is left
-// What a row of gradient one (the scale of the samples) at least has of it, squared: less is
-// rounding of a gradient that vanishes.
-constexpr double kNoGradient = 1e-20;
+constexpr double kSafeShare = 0.01;     // of the largest pivot a row can have
 constexpr double kRunTimeShare = 1e-5;  // of the pivots seen, before digits are worth saving
 
-}  // namespace
+// The matrix while unknowns are taken out of it, in sparse rows that hold both triangles.
+class Elimination {
+ public:
+  explicit Elimination(const SampledMatrix& samples)
+      : diagonal_(samples.diagonal),
+        rows_(samples.diagonal.size()),
+        fill_(rows_.size(), 0),
+        stale_(rows_.size(), 1) {
+    for (const auto& [i, j, value] : samples.entries) {
+      rows_[i].push_back({j, value});
+      rows_[j].push_back({i, value});
+    }
+    for (Row& row : rows_) std::sort(row.begin(), row.end(), Before);
+  }
 
-EliminationOrder ChooseEliminationOrder(int coordinates,
-                                        const std::vector<Eigen::MatrixXd>& samples,
-                                        std::span<const char> switching,
-                                        std::span<const std::pair<int, int>> pattern) {
-  const int n = static_cast<int>(samples.front().rows());
-  std::vector<Eigen::MatrixXd> work = samples;
-  std::vector<std::vector<char>> linked(n, std::vector<char>(n, 0));
-  for (const auto& [i, j] : pattern) linked[i][j] = linked[j][i] = i != j;
+  const SampleValues& diagonal(int k) const { return diagonal_[k]; }
+  int CountNeighbours(int k) const { return static_cast<int>(rows_[k].size()); }
+  /// Whether k is coupled with an unknown below `limit`.
+  bool HasNeighbourBelow(int k, int limit) const {
+    return !rows_[k].empty() && rows_[k].front().unknown < limit;
+  }
 
-  // The largest pivots that rows can have: the diagonal of Dᵀ M⁻¹ D.
-  std::vector<std::vector<double>> full(work.size(), std::vector<double>(n, 0));
-  const bool coupled = coordinates > 0 && n > coordinates;  // no empty matrix is taken apart
-  for (size_t s = 0; coupled && s < work.size(); ++s) {
-    const Eigen::MatrixXd D = work[s].topRightCorner(coordinates, n - coordinates);
-    const Eigen::MatrixXd X = work[s].topLeftCorner(coordinates, coordinates).ldlt().solve(D);
-    for (int r = coordinates; r < n; ++r) {
-      full[s][r] = D.col(r - coordinates).dot(X.col(r - coordinates));
+  /// Pairs of neighbours that the elimination of k would link.
+  long GetFill(int k) {
+    if (stale_[k]) {
+      fill_[k] = CalcFill(k);
+      stale_[k] = 0;
+    }
+    return fill_[k];
+  }
+
+  void Remove(int k) {
+    for (const auto& [i, value] : rows_[k]) {
+      rows_[i].erase(Find(rows_[i], k));
+      stale_[i] = 1;
+    }
+    rows_[k].clear();
+  }
+
+  void Eliminate(int k) {
+    const Row pivot_row = rows_[k];
+    Remove(k);
+    for (const auto& [i, value] : pivot_row) {
+      SampleValues l;
+      for (int s = 0; s < kSamples; ++s) l[s] = value[s] / diagonal_[k][s];
+      for (int s = 0; s < kSamples; ++s) diagonal_[i][s] -= l[s] * value[s];
+      Subtract(i, l, pivot_row);
     }
   }
 
-  EliminationOrder result;
-  result.redundant.assign(n - coordinates, 0);
-  std::vector<char> gone(n, 0);
-  std::vector<int> neighbours;
-  const auto eliminate = [&](int k) {
-    neighbours.clear();
-    for (int i = 0; i < n; ++i) {
-      if (!gone[i] && i != k && linked[k][i]) neighbours.push_back(i);
+ private:
+  struct Neighbour {
+    int unknown = 0;
+    SampleValues value{};
+  };
+  using Row = std::vector<Neighbour>;
+
+  static bool Before(const Neighbour& a, const Neighbour& b) { return a.unknown < b.unknown; }
+  static Row::iterator Find(Row& row, int unknown) {
+    return std::lower_bound(row.begin(), row.end(), Neighbour{unknown, {}}, Before);
+  }
+
+  long CalcFill(int k) const {
+    const Row& row = rows_[k];
+    long linked = 0;
+    for (const Neighbour& i : row) linked += CountShared(rows_[i.unknown], row);
+    const long n = static_cast<long>(row.size());
+    return (n * (n - 1) - linked) / 2;
+  }
+
+  static long CountShared(const Row& a, const Row& b) {
+    long shared = 0;
+    for (size_t i = 0, j = 0; i < a.size() && j < b.size();) {
+      if (a[i].unknown == b[j].unknown)
+        ++shared, ++i, ++j;
+      else if (a[i].unknown < b[j].unknown)
+        ++i;
+      else
+        ++j;
     }
-    for (Eigen::MatrixXd& A : work) {
-      const double inverse = 1.0 / A(k, k);
-      for (int i : neighbours) {
-        const double l = A(i, k) * inverse;
-        for (int j : neighbours) A(i, j) -= l * A(k, j);
+    return shared;
+  }
+
+  // row i -= l times the pivot's row
+  void Subtract(int i, const SampleValues& l, const Row& pivot_row) {
+    Row& row = rows_[i];
+    merged_.clear();
+    auto at = row.begin();
+    for (const Neighbour& b : pivot_row) {
+      if (b.unknown == i) continue;
+      while (at != row.end() && at->unknown < b.unknown) merged_.push_back(*at++);
+      Neighbour sum{b.unknown, {}};
+      if (at != row.end() && at->unknown == b.unknown) {
+        sum = *at++;
+      } else if (i < b.unknown) {
+        MarkShared(row, rows_[b.unknown]);
       }
+      for (int s = 0; s < kSamples; ++s) sum.value[s] -= l[s] * b.value[s];
+      merged_.push_back(sum);
     }
-    for (int i : neighbours) {
-      for (int j : neighbours) linked[i][j] = i != j;
+    merged_.insert(merged_.end(), at, row.end());
+    row.swap(merged_);
+  }
+
+  // a new link between two unknowns changes the fill of whatever is linked with both
+  void MarkShared(const Row& a, const Row& b) {
+    for (size_t i = 0, j = 0; i < a.size() && j < b.size();) {
+      if (a[i].unknown == b[j].unknown)
+        stale_[a[i].unknown] = 1, ++i, ++j;
+      else if (a[i].unknown < b[j].unknown)
+        ++i;
+      else
+        ++j;
     }
-    gone[k] = 1;
-    result.order.push_back(k);
+  }
+
+  std::vector<SampleValues> diagonal_;
+  std::vector<Row> rows_;
+  std::vector<long> fill_;
+  std::vector<char> stale_;
+  Row merged_;
+};
+
+}  // namespace
+
+EliminationOrder ChooseEliminationOrder(const SampledMatrix& samples) {
+  const int n = static_cast<int>(samples.diagonal.size()), coordinates = samples.coordinates;
+  Elimination work(samples);
+  // the share that a row's pivot has of what it could be, the least of all samples
+  const auto get_share = [&](int k) {
+    double least = std::numeric_limits<double>::infinity();
+    for (int s = 0; s < kSamples; ++s) {
+      const double full = samples.largest_pivot[k][s];
+      least = std::min(least, full > kNoGradient ? -work.diagonal(k)[s] / full : 0.0);
+    }
+    return least;
   };
 
-  int lasting = 0;  // rows still to go that are always in use
-  for (char s : switching) lasting += !s;
-  for (int step = 0; step < n; ++step) {
+  EliminationOrder result;
+  std::vector<int> left;  // unknowns still to go, in their own order
+  int lasting = 0;        // rows still to go that are always in use
+  for (int k = 0; k < n; ++k) {
+    if (samples.last[k] == SampledMatrix::kOut) {
+      work.Remove(k);
+    } else {
+      left.push_back(k);
+      lasting += k >= coordinates && !samples.last[k];
+    }
+  }
+  while (!left.empty()) {
     int best = -1;
     long best_fill = std::numeric_limits<long>::max();
     int best_degree = n;
     double best_share = 0;
     bool best_is_last_resort = true;
-    for (int k = 0; k < n; ++k) {
-      if (gone[k]) continue;
+    for (int k : left) {
       double share = 1;
       bool last_resort = false;
       if (k >= coordinates) {
-        if (switching[k - coordinates] && lasting > 0) continue;
-        bool free = true;  // no coordinate left that could still feed this pivot
-        for (int i = 0; i < coordinates && free; ++i) free = gone[i] || !linked[k][i];
-        share = std::numeric_limits<double>::infinity();
-        for (size_t s = 0; s < work.size(); ++s) {
-          share = std::min(share, full[s][k] > kNoGradient ? -work[s](k, k) / full[s][k] : 0.0);
-        }
+        if (samples.last[k] && lasting > 0) continue;
+        share = get_share(k);
         last_resort = share < kSafeShare;
-        if (last_resort && !free) continue;
+        // as long as coordinates are left that could still feed this pivot
+        if (last_resort && work.HasNeighbourBelow(k, coordinates)) continue;
       }
       // Rows that nothing can help any more go last, the best of them first.
-      if (last_resort && (best >= 0 && !best_is_last_resort)) continue;
-      long fill = 0;
-      int degree = 0;
-      for (int i = 0; i < n; ++i) {
-        if (gone[i] || i == k || !linked[k][i]) continue;
-        ++degree;
-        for (int j = i + 1; j < n; ++j) fill += !gone[j] && j != k && linked[k][j] && !linked[i][j];
-      }
+      if (last_resort && best >= 0 && !best_is_last_resort) continue;
+      const long fill = work.GetFill(k);
+      const int degree = work.CountNeighbours(k);
       const bool better =
           best < 0 || (best_is_last_resort && !last_resort) ||
           (last_resort ? share > best_share
@@ -104,27 +194,18 @@ EliminationOrder ChooseEliminationOrder(int coordinates,
         best_is_last_resort = last_resort;
       }
     }
-    if (best >= coordinates && !switching[best - coordinates]) --lasting;
-    if (best >= coordinates) {
-      // Dependent in every sample: one state with a pivot is enough to keep the row.
-      double largest = 0;
-      for (size_t s = 0; s < work.size(); ++s) {
-        if (full[s][best] > kNoGradient)
-          largest = std::max(largest, -work[s](best, best) / full[s][best]);
-      }
-      if (largest < kDependent) {
-        result.redundant[best - coordinates] = 1;
-        result.pivot_limits.push_back(0);
-        for (int i = 0; i < n; ++i) linked[best][i] = linked[i][best] = 0;
-        gone[best] = 1;
-        result.order.push_back(best);
-        continue;
-      }
-    }
+    left.erase(std::lower_bound(left.begin(), left.end(), best));
+    if (best >= coordinates && !samples.last[best]) --lasting;
     double smallest = std::numeric_limits<double>::infinity();
-    for (const Eigen::MatrixXd& A : work) smallest = std::min(smallest, std::abs(A(best, best)));
+    for (double pivot : work.diagonal(best)) smallest = std::min(smallest, std::abs(pivot));
+    result.order.push_back(best);
     result.pivot_limits.push_back((best < coordinates ? 1 : -1) * kRunTimeShare * smallest);
-    eliminate(best);
+    work.Eliminate(best);
+  }
+  for (int k = 0; k < n; ++k) {
+    if (samples.last[k] != SampledMatrix::kOut) continue;
+    result.order.push_back(k);
+    result.pivot_limits.push_back(0);
   }
   return result;
 }

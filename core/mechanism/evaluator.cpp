@@ -343,9 +343,9 @@ void Evaluator::SolveForCorrection() {
   const Model& model = system_.model;
   std::fill(w_.f.begin(), w_.f.end(), Wrench<double>{});
   AssembleEquations(model, none_.data(), w_);
-  for (int i = 0; i < model.velocities; ++i) w_.k[model.pattern.GetRightSideSlot(i)] = 0;
+  for (int i = 0; i < model.coordinates; ++i) w_.k[model.pattern.GetRightSideSlot(i)] = 0;
   for (int r = 0; r < model.rows; ++r) {
-    w_.k[model.pattern.GetRightSideSlot(model.velocities + r)] = -w_.active[r] * residual_[r];
+    w_.k[model.pattern.GetRightSideSlot(model.coordinates + r)] = -w_.active[r] * residual_[r];
   }
   FactoriseAndSolve(model, w_, correction_, reaction_);
 }

@@ -63,7 +63,8 @@ void JacobianEvaluator::Calc(double time, std::span<const double> y, std::span<c
       }
       for (int r = 0; reactions != nullptr && r < model.rows; ++r) {
         const bool acts = active[r] != 0 && !model.redundant[r];
-        (*reactions)(r, first + lane) = acts ? -w_.x[model.pattern.position(nv + r)].d[lane] : 0.0;
+        (*reactions)(r, first + lane) =
+            acts ? -w_.x[model.pattern.position(model.coordinates + r)].d[lane] : 0.0;
       }
       for (int i = 0; i < nz; ++i) jacobian(nv + i, first + lane) = state_rates_[i].d[lane];
     }

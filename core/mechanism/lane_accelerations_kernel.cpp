@@ -34,7 +34,7 @@ class Kernel final : public LaneAccelerations {
     model_.pattern.BackSubstitute(w_.k.data(), w_.x.data());
     for (int i = 0; i < nv; ++i) w_.x[model_.pattern.position(i)].Store(acceleration + i * N);
     for (int r = 0; r < model_.rows; ++r) {
-      (-w_.x[model_.pattern.position(nv + r)]).Store(reaction + r * N);
+      (-w_.x[model_.pattern.position(model_.coordinates + r)]).Store(reaction + r * N);
     }
     auto safe = S(0.0) < S(1.0);
     for (int k = 0; k < model_.pattern.unknowns(); ++k) {

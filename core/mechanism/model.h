@@ -143,21 +143,65 @@ struct Model {
   struct Support {
     int dof = 0;
     int sign = 1;
-    int slot = 0;  ///< of (dof, row) in the factor's storage
   };
   std::vector<Support> supports;   ///< of all link rows, row by row
   std::vector<int> support_begin;  ///< per row, size rows + 1; empty for linear rows
-  std::vector<int> linear_slots;   ///< of all terms of all linear rows
 
-  /// Slots of M: for coordinate i, of (i, i) and of (i, j) for the ancestors j = dof_parent[i], ...
-  /// up to the root.
+  // Deep trees are cut, so that the cost of an evaluation grows with the number of links and not
+  // with its cube: see segments.h for the equations.
+
+  /// A part of the tree below a cut. [0] is the part that hangs on the world, uncut.
+  struct Segment {
+    int link = 0;    ///< the link that is cut; its origin is the segment's own reference point
+    int parent = 0;  ///< segment of that link's other half
+  };
+  std::vector<Segment> segments;
+  std::vector<int> segment;         ///< per link: of the half that its joint carries
+  std::vector<int> starts_segment;  ///< per link: the segment that begins with it, or 0
+  /// Per link: what its inertia is handed to: the parent link, links.size() + s - 1 for the half of
+  /// the parent that segment s begins with, or 0, the world.
+  std::vector<int> carrier;
+  std::vector<int> segment_parent;  ///< dof_parent within the segment, else -1
+
+  /// Unknowns of the equations: velocities, then six per cut; then rows, then six per cut.
+  int coordinates = 0;
+  int CountCuts() const { return static_cast<int>(segments.size()) - 1; }
+  int unknowns() const { return coordinates + rows + 6 * CountCuts(); }
+  int GetCutCoordinate(int segment) const { return velocities + 6 * (segment - 1); }
+  int GetCutRow(int segment) const { return coordinates + rows + 6 * (segment - 1); }
+
+  /// Where velocity coordinates enter a row of the equations: as in `supports`, but only within the
+  /// segments of the two links.
+  struct RowTerm {
+    int dof = 0;
+    int sign = 1;
+    int slot = 0;  ///< of (dof, row) in the factor's storage
+  };
+  std::vector<RowTerm> row_terms;
+  std::vector<int> row_term_begin;  ///< per row, size rows + 1
+  /// Where the six coordinates of a cut enter a row.
+  struct CutTerm {
+    int row = 0;
+    int segment = 0;
+    int sign = 1;
+    int slots[6]{};
+  };
+  std::vector<CutTerm> cut_terms;
+  std::vector<int> linear_slots;  ///< of all terms of all linear rows
+  std::vector<int> cut_slots;     ///< of everything else that belongs to cuts, as segments.h reads
+
+  /// Slots of M: for coordinate i, of (i, i) and of (i, j) for the ancestors j = segment_parent[i],
+  /// ... up to the root of the segment, then of the six coordinates of its cut.
   std::vector<int> mass_slots;
-  std::vector<int> mass_begin;  ///< per coordinate, size velocities + 1
+  std::vector<int> mass_begin;  ///< per velocity coordinate, size velocities + 1
 
-  /// Elimination of [M, D; Dᵀ, 0], order chosen once (elimination_order.h). Unknown velocities + r
+  /// Elimination of [M, D; Dᵀ, 0], order chosen once (elimination_order.h). Unknown coordinates + r
   /// is row r.
   math::SparseLdltPattern pattern;
   std::vector<char> redundant;  ///< per row: follows from the others; its reaction is taken as zero
+  /// Whether the equations hold R_r = 0 instead of row r, for good: it is redundant and does not
+  /// come and go.
+  bool IsLeftOut(int r) const { return redundant[r] && !switching[r]; }
   /// Per elimination step, the value that the pivot must lie beyond (positive for coordinates,
   /// negative for rows).
   std::vector<double> pivot_limits;

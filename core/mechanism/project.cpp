@@ -1,6 +1,7 @@
 #include "core/mechanism/project.h"
 
 #include "core/mechanism/dynamics.h"
+#include "core/mechanism/row_groups.h"
 
 namespace kingpin::mechanism {
 
@@ -8,19 +9,24 @@ namespace {
 
 using math::Quaternion;
 
-// Kinematics at rest, and the gradients of the rows.
 Eigen::MatrixXd CalcGradients(const Model& model, const Workspace<double>& w) {
   Eigen::MatrixXd D = Eigen::MatrixXd::Zero(model.velocities, model.rows);
-  for (int r = 0; r < model.rows; ++r) {
-    for (int s = model.support_begin[r]; s < model.support_begin[r + 1]; ++s) {
-      const Model::Support& support = model.supports[s];
-      D(support.dof, r) = support.sign * Dot(w.axes[support.dof], w.W[r]);
-    }
-  }
-  for (const LinearRow& row : model.linear) {
-    for (const LinearRow::Term& term : row.terms) D(term.v, row.row) += term.factor;
-  }
+  VisitGradients(model, w, [&](int i, int r, double value) { D(i, r) += value; });
   return D;
+}
+
+// The x of least norm with Dᵀ x = right: redundant rows do no harm.
+Eigen::VectorXd SolveGradients(const Model& model, const std::vector<RowGroup>& groups,
+                               const Workspace<double>& w, const Eigen::VectorXd& right) {
+  const std::vector<Eigen::MatrixXd> J = CalcGroupGradients(model, groups, w);
+  Eigen::VectorXd x = Eigen::VectorXd::Zero(model.velocities);
+  for (size_t g = 0; g < groups.size(); ++g) {
+    if (groups[g].coordinates.empty()) continue;
+    const Eigen::VectorXd b = right(groups[g].rows);
+    const Eigen::VectorXd part = J[g].completeOrthogonalDecomposition().solve(b);
+    x(groups[g].coordinates) = part;
+  }
+  return x;
 }
 
 void UpdateAtRest(const Model& model, std::span<const double> q, Workspace<double>& w) {
@@ -116,17 +122,19 @@ void MoveOnConstraints(const Model& model, std::span<const double> direction, st
   const Eigen::Map<const Eigen::VectorXd> whole(direction.data(), model.velocities);
   std::vector<double> step(model.velocities);
   Eigen::Map<Eigen::VectorXd> v(step.data(), model.velocities);
-  const auto solve = [&](const Eigen::VectorXd& right) -> Eigen::VectorXd {
-    // least norm: redundant rows do no harm
-    return CalcGradients(model, w).transpose().completeOrthogonalDecomposition().solve(right);
-  };
+  const std::vector<RowGroup> groups = GroupRows(model);
+  Eigen::VectorXd rate(model.rows);
   for (int s = 0; s < kSteps; ++s) {
     v = whole / kSteps;
-    if (model.rows > 0) v -= solve(CalcGradients(model, w).transpose() * v);
+    if (model.rows > 0) {
+      rate.setZero();
+      VisitGradients(model, w, [&](int i, int r, double value) { rate[r] += value * v[i]; });
+      v -= SolveGradients(model, groups, w, rate);
+    }
     MovePositions(model, step, q);
     for (int c = 0; c < kCorrections && model.rows > 0; ++c) {
       UpdateAtRest(model, q, w);
-      v = -solve(CollectResidual(model, q, {}, w) - wanted);
+      v = -SolveGradients(model, groups, w, CollectResidual(model, q, {}, w) - wanted);
       MovePositions(model, step, q);
     }
     UpdateAtRest(model, q, w);

@@ -23,10 +23,12 @@ struct Workspace {
   std::vector<Vector3<S>> p;         ///< origin
   std::vector<Motion<S>> V;          ///< velocity
   std::vector<Motion<S>> A;          ///< acceleration at zero joint accelerations, minus gravity
-  std::vector<SpatialInertia<S>> I;  ///< of the link, then of the subtree it carries
+  std::vector<SpatialInertia<S>> I;  ///< of the link, then of the subtree it carries; halves of
+                                     ///< links that are cut come after all links
   std::vector<Wrench<S>>
       f;  ///< applied wrenches (input), then inertia minus applied force of the subtree
-  std::vector<Motion<S>> axes;  ///< per velocity coordinate: S_i
+  std::vector<Motion<S>> axes;        ///< per velocity coordinate: S_i
+  std::vector<Motion<S>> local_axes;  ///< S_i about the segment's own point, if the tree is cut
 
   std::vector<S> generalised;  ///< per velocity coordinate: applied force (input)
   std::vector<Wrench<S>> W;    ///< per row of a closure: unit reaction on link a
@@ -49,9 +51,10 @@ Workspace<S>::Workspace(const Model& model)
       p(model.links.size()),
       V(model.links.size()),
       A(model.links.size()),
-      I(model.links.size()),
-      f(model.links.size()),
+      I(model.links.size() + model.CountCuts()),
+      f(model.links.size() + model.CountCuts()),
       axes(model.velocities),
+      local_axes(model.CountCuts() > 0 ? model.velocities : 0),
       generalised(model.velocities, S(0.0)),
       W(model.rows),
       residual(model.rows, S(0.0)),
