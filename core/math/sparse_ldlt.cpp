@@ -44,17 +44,36 @@ SparseLdltPattern::SparseLdltPattern(std::span<const int> order,
   for (int k = 0; k < unknowns_; ++k) position_[order[k]] = k;
   Columns columns;
   SetColumns(entries, true, columns);
-  // targets: for every pair (a, b) of rows of a column, the slot of (row b, row a)
-  for (int j = 0; j < unknowns_; ++j) {
-    const std::vector<int>& rows = columns[j];
+  SetNodes(columns);
+}
+
+void SparseLdltPattern::SetNodes(const Columns& columns) {
+  for (int j = 0; j < unknowns_;) {
+    int width = 1;
+    while (width < kWidest && columns[j + width - 1][0] == j + width &&
+           columns[j + width - 1].size() == columns[j + width].size() + 1) {
+      ++width;
+    }
+    nodes_.push_back({j, width});
+    for (int w = 0; w < width; ++w) {
+      const long rows = static_cast<long>(columns[j + w].size()) - 1;
+      operations_ += rows * (rows + 3) / 2;
+    }
+    j += width;
+    const std::vector<int>& rows = columns[j - 1];
     for (size_t a = 0; a + 1 < rows.size(); ++a) {
-      targets_.push_back(rows[a]);
       const std::vector<int>& other = columns[rows[a]];
+      std::vector<int> slots;
       size_t at = 0;
       for (size_t b = a + 1; b < rows.size(); ++b) {
         while (other[at] != rows[b]) ++at;
-        targets_.push_back(begin_[rows[a]] + static_cast<int>(at));
+        slots.push_back(begin_[rows[a]] + static_cast<int>(at));
       }
+      // slots that follow each other, up to the last, which is the right side
+      size_t run = slots.size() - 1;
+      while (run > 0 && slots[run - 1] + 1 == slots[run]) --run;
+      plan_.push_back(static_cast<int>(run));
+      plan_.insert(plan_.end(), slots.begin(), slots.begin() + static_cast<long>(run) + 1);
     }
   }
 }

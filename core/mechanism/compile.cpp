@@ -245,6 +245,7 @@ void CompileElimination(Model& model, std::span<const double> q, const CutRule& 
     for (int i = 0; i < n; ++i) samples.largest_pivot[i][s] = largest[i];
     gradients.push_back(CalcGroupGradients(model, row_groups, w));
     for (size_t g = 0; g < row_groups.size(); ++g) {
+      if (row_groups[g].coordinates.empty()) continue;
       for (size_t k = 0; k < row_groups[g].coordinates.size(); ++k) {
         gradients[s][g].col(k) *= scale[row_groups[g].coordinates[k]];
       }

@@ -32,6 +32,8 @@ template <class S>
 KINGPIN_INLINE void AssembleMassAndForces(const Model& model, Workspace<S>& w) {
   const Motion<S>* axes = model.CountCuts() > 0 ? w.local_axes.data() : w.axes.data();
   const int* cut_slot = model.cut_slots.data();
+  // the last coordinate of the free root that carries the reference point
+  const int root = model.reference_link != 0 ? model.links[model.reference_link].v + 5 : -1;
   for (int l = static_cast<int>(model.links.size()) - 1; l > 0; --l) {
     const Link& link = model.links[l];
     if (const int s = model.starts_segment[l]) AssembleCut(model, s, cut_slot, w);
@@ -39,9 +41,19 @@ KINGPIN_INLINE void AssembleMassAndForces(const Model& model, Workspace<S>& w) {
       w.k[model.pattern.GetRightSideSlot(i)] = w.generalised[i] - Dot(axes[i], w.f[l]);
       const Wrench<S> momentum = w.I[l] * axes[i];
       const int* slot = &model.mass_slots[model.mass_begin[i]];
-      for (int j = i; j >= 0; j = model.segment_parent[j]) w.k[*slot++] = Dot(axes[j], momentum);
-      if (model.segment[l] == 0) continue;
       const auto& [t, f] = momentum;
+      int j = i;
+      for (; j >= 0 && j != root; j = model.segment_parent[j]) {
+        w.k[*slot++] = Dot(axes[j], momentum);
+      }
+      if (j >= 0) {  // the free root's axes pass through the reference point
+        const Rotation<S>& R = w.R[model.reference_link];
+        for (const S& x :
+             {Dot(R.z, t), Dot(R.y, t), Dot(R.x, t), Dot(R.z, f), Dot(R.y, f), Dot(R.x, f)}) {
+          w.k[*slot++] = x;
+        }
+      }
+      if (model.segment[l] == 0) continue;
       for (const S& x : {t.x, t.y, t.z, f.x, f.y, f.z}) w.k[*slot++] = x;
     }
     if (const int carrier = model.carrier[l]) {
@@ -99,7 +111,7 @@ inline bool PivotsAreSafe(const Model& model, const Workspace<double>& w) {
 template <class S>
 KINGPIN_INLINE void AssembleEquations(const Model& model, const S* drive_acceleration,
                                       Workspace<S>& w) {
-  for (int i = 0; i < model.pattern.size(); ++i) w.k[i] = S(0.0);
+  for (int slot : model.fill_slots) w.k[slot] = S(0.0);
   if (model.CountCuts() > 0) {
     UpdateSegmentInertias(model, w);
   } else {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "core/mechanism/row_groups.h"
 
@@ -30,6 +31,11 @@ class Elimination {
 
   const SampleValues& diagonal(int k) const { return diagonal_[k]; }
   int CountNeighbours(int k) const { return static_cast<int>(rows_[k].size()); }
+  std::vector<int> ListNeighbours(int k) const {
+    std::vector<int> list;
+    for (const Neighbour& neighbour : rows_[k]) list.push_back(neighbour.unknown);
+    return list;
+  }
   /// Whether k is coupled with an unknown below `limit`.
   bool HasNeighbourBelow(int k, int limit) const {
     return !rows_[k].empty() && rows_[k].front().unknown < limit;
@@ -136,6 +142,36 @@ class Elimination {
   Row merged_;
 };
 
+// An order with the same elimination tree, hence the same fill and the same pivots, in which every
+// subtree comes in one piece: what is eliminated together lies together.
+void SortDepthFirst(const std::vector<std::vector<int>>& neighbours, EliminationOrder& order) {
+  const int steps = static_cast<int>(order.order.size());
+  std::vector<int> step_of(1 + *std::max_element(order.order.begin(), order.order.end()), steps);
+  for (int k = 0; k < steps; ++k) step_of[order.order[k]] = k;
+  // the parent of a step is the first of its neighbours to go; steps without one hang on `steps`
+  std::vector<std::vector<int>> children(steps + 1);
+  for (int k = 0; k < steps; ++k) {
+    int parent = steps;
+    for (int unknown : neighbours[k]) parent = std::min(parent, step_of[unknown]);
+    children[parent].push_back(k);
+  }
+  EliminationOrder sorted;
+  std::vector<std::pair<int, size_t>> path = {{steps, 0}};  // step, how many children are done
+  while (!path.empty()) {
+    auto& [step, done] = path.back();
+    if (done < children[step].size()) {
+      path.emplace_back(children[step][done++], 0);
+      continue;
+    }
+    if (step < steps) {
+      sorted.order.push_back(order.order[step]);
+      sorted.pivot_limits.push_back(order.pivot_limits[step]);
+    }
+    path.pop_back();
+  }
+  order = std::move(sorted);
+}
+
 }  // namespace
 
 EliminationOrder ChooseEliminationOrder(const SampledMatrix& samples) {
@@ -152,8 +188,9 @@ EliminationOrder ChooseEliminationOrder(const SampledMatrix& samples) {
   };
 
   EliminationOrder result;
-  std::vector<int> left;  // unknowns still to go, in their own order
-  int lasting = 0;        // rows still to go that are always in use
+  std::vector<std::vector<int>> neighbours;  // per step, that the unknown had when it went
+  std::vector<int> left;                     // unknowns still to go, in their own order
+  int lasting = 0;                           // rows still to go that are always in use
   for (int k = 0; k < n; ++k) {
     if (samples.last[k] == SampledMatrix::kOut) {
       work.Remove(k);
@@ -200,8 +237,10 @@ EliminationOrder ChooseEliminationOrder(const SampledMatrix& samples) {
     for (double pivot : work.diagonal(best)) smallest = std::min(smallest, std::abs(pivot));
     result.order.push_back(best);
     result.pivot_limits.push_back((best < coordinates ? 1 : -1) * kRunTimeShare * smallest);
+    neighbours.push_back(work.ListNeighbours(best));
     work.Eliminate(best);
   }
+  if (!result.order.empty()) SortDepthFirst(neighbours, result);
   for (int k = 0; k < n; ++k) {
     if (samples.last[k] != SampledMatrix::kOut) continue;
     result.order.push_back(k);

@@ -79,6 +79,28 @@ void SetSlots(Model& model) {
       model.linear_slots.push_back(get(term.v, model.coordinates + row.row));
     }
   }
+  std::vector<char> written(model.pattern.size(), 0);
+  const auto mark = [&](const std::vector<int>& slots) {
+    for (int slot : slots) written[slot] = 1;
+  };
+  mark(model.mass_slots);
+  mark(model.cut_slots);
+  mark(model.linear_slots);
+  for (int i = 0; i < model.velocities; ++i) written[model.pattern.GetRightSideSlot(i)] = 1;
+  for (int r = 0; r < model.rows; ++r) {
+    written[model.pattern.position(model.coordinates + r)] = 1;
+    written[model.pattern.GetRightSideSlot(model.coordinates + r)] = 1;
+    for (int s = model.row_term_begin[r]; s < model.row_term_begin[r + 1]; ++s) {
+      if (!model.IsLeftOut(r)) written[model.row_terms[s].slot] = 1;
+    }
+  }
+  for (const Model::CutTerm& term : model.cut_terms) {
+    for (int slot : term.slots) written[slot] |= !model.IsLeftOut(term.row);
+  }
+  model.fill_slots.clear();
+  for (int slot = 0; slot < model.pattern.size(); ++slot) {
+    if (!written[slot]) model.fill_slots.push_back(slot);
+  }
 }
 
 }  // namespace kingpin::mechanism

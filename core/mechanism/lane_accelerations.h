@@ -26,8 +26,8 @@ class LaneAccelerations {
                     double* reaction) = 0;
 };
 
-/// @param lanes 1, or 8: one register of AVX-512, two of AVX2, four of the portable set. `model`
-/// must outlive the kernel.
+/// @param lanes 1, or 8: one register of AVX-512, or one after the other two of AVX2, four of the
+/// portable set. `model` must outlive the kernel.
 std::unique_ptr<LaneAccelerations> MakeLaneAccelerations(const Model& model, int lanes);
 
 /// The same for a stated instruction set, which the machine must have.

@@ -9,10 +9,13 @@ namespace {
 
 using Isa = isa::KINGPIN_ISA;
 
+/// N lanes, as many at a time as a register holds: the workspace of more of them would not fit into
+/// the first-level cache, nor their values into the registers.
 template <int N>
 class Kernel final : public LaneAccelerations {
  public:
-  using S = math::Pack<double, N, Isa>;
+  static constexpr int kWidth = N < Isa::kLanes ? N : Isa::kLanes;
+  using S = math::Pack<double, kWidth, Isa>;
 
   explicit Kernel(const Model& model)
       : model_(model), w_(model), q_(model.positions), v_(model.velocities), drive_(model.rows) {}
@@ -21,6 +24,16 @@ class Kernel final : public LaneAccelerations {
 
   bool Calc(const double* q, const double* v, const double* force, double* acceleration,
             double* reaction) override {
+    bool safe = true;
+    for (int lane = 0; lane < N; lane += kWidth) {
+      safe &= CalcRegister(q + lane, v + lane, force + lane, acceleration + lane, reaction + lane);
+    }
+    return safe;
+  }
+
+ private:
+  bool CalcRegister(const double* q, const double* v, const double* force, double* acceleration,
+                    double* reaction) {
     const int nv = model_.velocities;
     for (int i = 0; i < model_.positions; ++i) q_[i] = S::Load(q + i * N);
     for (int i = 0; i < nv; ++i) v_[i] = S::Load(v + i * N);
@@ -44,7 +57,6 @@ class Kernel final : public LaneAccelerations {
     return All(safe);
   }
 
- private:
   const Model& model_;
   Workspace<S> w_;
   std::vector<S> q_, v_, drive_;

@@ -155,7 +155,7 @@ struct Model {
     int link = 0;    ///< the link that is cut; its origin is the segment's own reference point
     int parent = 0;  ///< segment of that link's other half
   };
-  std::vector<Segment> segments;
+  std::vector<Segment> segments = std::vector<Segment>(1);
   std::vector<int> segment;         ///< per link: of the half that its joint carries
   std::vector<int> starts_segment;  ///< per link: the segment that begins with it, or 0
   /// Per link: what its inertia is handed to: the parent link, links.size() + s - 1 for the half of
@@ -188,6 +188,7 @@ struct Model {
   };
   std::vector<CutTerm> cut_terms;
   std::vector<int> linear_slots;  ///< of all terms of all linear rows
+  std::vector<int> fill_slots;    ///< that the assembly leaves alone: zero before an elimination
   std::vector<int> cut_slots;     ///< of everything else that belongs to cuts, as segments.h reads
 
   /// Slots of M: for coordinate i, of (i, i) and of (i, j) for the ancestors j = segment_parent[i],

@@ -76,6 +76,10 @@ void FindRedundantRows(const std::vector<RowGroup>& groups,
   for (size_t g = 0; g < groups.size(); ++g) {
     const std::vector<int>& rows = groups[g].rows;
     const int count = static_cast<int>(rows.size());
+    if (groups[g].coordinates.empty()) {  // between bodies that cannot move
+      for (int r : rows) redundant[r] = 1;
+      continue;
+    }
     // Gram matrices of rows of unit length; what is left on the diagonal after an elimination is
     // the square of what the others cannot give.
     std::vector<Eigen::MatrixXd> left;
