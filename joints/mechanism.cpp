@@ -459,12 +459,13 @@ class Maker {
   }
 
   double CalcStartDistance(const mechanism::Frame& a, const mechanism::Frame& b) {
-    Model model = mechanism_.system.model;
-    model.rows = 0;
-    model.row_names.clear();
-    mechanism::CompileTopology(model);
-    mechanism::Workspace<double> w(model);
-    mechanism::UpdatePositions(model, mechanism_.start.data(), w);
+    Model tree;  // without the closures that stand already
+    tree.links = mechanism_.system.model.links;
+    tree.positions = mechanism_.system.model.positions;
+    tree.velocities = mechanism_.system.model.velocities;
+    mechanism::CompileTopology(tree);
+    mechanism::Workspace<double> w(tree);
+    mechanism::UpdatePositions(tree, mechanism_.start.data(), w);
     return CalcNorm((w.R[a.link] * a.X_LF.p + w.p[a.link]) -
                     (w.R[b.link] * b.X_LF.p + w.p[b.link]));
   }
@@ -501,6 +502,12 @@ class Maker {
     for (const CouplingDescription::Term& term : coupling.terms) {
       row.terms.push_back(MakeTerm(coupling.source, key, term.joint, term.coordinate, term.factor,
                                    coupling.rate_only));
+      const auto same = [&](const auto& other) { return other.v == row.terms.back().v; };
+      if (std::any_of(row.terms.begin(), row.terms.end() - 1, same)) {
+        Fail(coupling.source, key + ".terms",
+             fmt::format("coordinate {} of joint '{}' twice", term.coordinate, term.joint),
+             "each coordinate once");
+      }
       offset += term.factor * mechanism_.start[row.terms.back().q];
     }
     if (coupling.offset) offset = *coupling.offset;
