@@ -37,6 +37,14 @@ class ElementGroup final : public mechanism::ForceGroup {
     }
     return sum;
   }
+  std::string FindNotFinite(const mechanism::ForceContext<double>& context) const override {
+    for (size_t i = 0; i < elements_.size(); ++i) {
+      mechanism::ClearForces(context.w);
+      elements_[i].AddForces(context);
+      if (!mechanism::ForcesAreFinite(context.w)) return '\'' + names_[i] + '\'';
+    }
+    return "";
+  }
 
  private:
   std::vector<std::string> names_;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <limits>
 
@@ -26,7 +27,8 @@ struct MotorLaw {
       const std::array<double, 3> s = target ? target(t) : std::array<double, 3>{};
       sum += proportional * (s[0] - x) + derivative * (s[1] - rate);
     }
-    return Max(Min(sum, S(limit)), S(-limit));
+    // a limit must not make a force of what is not a number
+    return std::isfinite(Value(sum)) ? Max(Min(sum, S(limit)), S(-limit)) : sum;
   }
   mechanism::EnergyRates CalcEnergy(double time, double x, double rate) const {
     return {0, 0, CalcForce(time, x, rate) * rate};

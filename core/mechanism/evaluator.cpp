@@ -34,7 +34,9 @@ Evaluator::Evaluator(const System& system)
       residual_(system.model.rows),
       correction_(system.model.velocities),
       none_(system.model.rows),
-      nearest_(system.size()) {
+      nearest_(system.size()),
+      modes_before_(system.friction.size()),
+      mode_rate_(system.size()) {
   for (const Friction& friction : system.friction) {
     size_t index = 0;
     while (system.model.linear[index].row != friction.row) ++index;
@@ -84,9 +86,53 @@ void Evaluator::CalcRatesAt(double time, std::span<const double> y, std::span<do
         ForceContext<double>{model, time, q, v, states + first, state_rates + first, w_});
   }
   for (size_t f = 0; f < modes_.size(); ++f) slip_[f] = CalcSlip(static_cast<int>(f), y);
-  SolveWithFriction();
+  try {
+    SolveWithFriction();
+  } catch (const std::runtime_error&) {
+    ThrowIfNotFinite(time, y, rate);
+    throw;
+  }
   CalcPositionRates(model, q, v, rate.data());
   std::copy(acceleration_.begin(), acceleration_.end(), rate.begin() + model.positions);
+  double sum = 0;  // stays zero exactly as long as every number is finite
+  for (int i = model.positions; i < system_.size(); ++i) sum += rate[i] - rate[i];
+  if (sum != 0 || sum != sum) {
+    ThrowIfNotFinite(time, y, rate);
+    throw std::runtime_error(
+        fmt::format("the accelerations are not finite numbers at t = {:g} s", time));
+  }
+}
+
+// Says which force or motion is the cause.
+void Evaluator::ThrowIfNotFinite(double time, std::span<const double> y, std::span<double> rate) {
+  const Model& model = system_.model;
+  for (double value : y) {
+    if (std::isfinite(value)) continue;
+    throw std::runtime_error(fmt::format(
+        "positions, velocities or states are not finite numbers at t = {:g} s: the motion grows "
+        "beyond all bounds; smaller steps or less stiff forces may help",
+        time));
+  }
+  for (int r = 0; r < model.rows; ++r) {
+    if (std::isfinite(drive_[r]) && std::isfinite(drive_rate_[r]) &&
+        std::isfinite(drive_acceleration_[r])) {
+      continue;
+    }
+    throw std::runtime_error(
+        fmt::format("the motion that '{}' follows is not a finite number at t "
+                    "= {:g} s: ({:g}, {:g}, {:g})",
+                    model.row_names[r], time, drive_[r], drive_rate_[r], drive_acceleration_[r]));
+  }
+  for (size_t g = 0; g < system_.forces.size(); ++g) {
+    const int first = system_.first_state[g];
+    const std::string culprit = system_.forces[g]->FindNotFinite(
+        ForceContext<double>{model, time, y.data(), y.data() + model.positions,
+                             y.data() + model.positions + model.velocities + first,
+                             rate.data() + model.positions + model.velocities + first, w_});
+    if (culprit.empty()) continue;
+    throw std::runtime_error(
+        fmt::format("force {} is not a finite number at t = {:g} s", culprit, time));
+  }
 }
 
 const LinearRow& Evaluator::GetRow(const Friction& friction) const {
@@ -197,7 +243,7 @@ bool Evaluator::UpdateModes(double time, std::span<const double> y, double still
   const int count = static_cast<int>(modes_.size());
   if (count == 0) return false;
   friction_released_ = false;
-  const std::vector<int> before = modes_;
+  std::copy(modes_.begin(), modes_.end(), modes_before_.begin());
   UpdateDrives(time);
   for (int f = 0; f < count; ++f) {
     const double slip = CalcSlip(f, y);
@@ -205,17 +251,16 @@ bool Evaluator::UpdateModes(double time, std::span<const double> y, double still
   }
   // Release the element that is most beyond its limit, one at a time: its neighbours may hold once
   // it has given way.
-  std::vector<double> rate(system_.size());
   for (int released = 0; released <= count; ++released) {
     try {
-      CalcRates(time, y, rate);
+      CalcRates(time, y, mode_rate_);
     } catch (const std::runtime_error&) {
       // A row that other constraints move cannot stick: at a turning point it slides on, the way
       // it is accelerated.
       const int f = FindForcedRow();
       if (f < 0) throw;
       SetMode(f, 1);
-      CalcRates(time, y, rate);
+      CalcRates(time, y, mode_rate_);
       double acceleration = -drive_acceleration_[system_.friction[f].row];
       for (const LinearRow::Term& term : GetRow(system_.friction[f]).terms) {
         acceleration += term.factor * acceleration_[term.v];
@@ -238,7 +283,7 @@ bool Evaluator::UpdateModes(double time, std::span<const double> y, double still
     if (worst < 0) break;
     SetMode(worst, reaction_[system_.friction[worst].row] > 0 ? -1 : 1);
   }
-  return modes_ != before;
+  return modes_ != modes_before_;
 }
 
 void Evaluator::CalcSwitches(std::span<const double> y, std::span<double> switches) const {

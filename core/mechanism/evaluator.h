@@ -25,7 +25,8 @@ class Evaluator {
 
   /// Kinematics, closures and forces at (time, y), and the accelerations and reactions that follow.
   /// @param rate out: dy/dt
-  /// @throws std::runtime_error if the constraints contradict each other there
+  /// @throws std::runtime_error if the constraints contradict each other there, or if a force, a
+  /// motion or the state is not a finite number; the message names the culprit
   void CalcRates(double time, std::span<const double> y, std::span<double> rate);
 
   /// R of the last CalcRates, per row: on link a of the closure, in the row's direction [N, N m].
@@ -74,6 +75,7 @@ class Evaluator {
  private:
   void CalcRatesAt(double time, std::span<const double> y, std::span<double> rate);
   void SolveWithFriction();
+  void ThrowIfNotFinite(double time, std::span<const double> y, std::span<double> rate);
   double CalcNormalForce(const Friction& friction);
   double CalcStaticLimit(const Friction& friction, double normal) const;
   double CalcKineticLimit(const Friction& friction, double normal, double slip) const;
@@ -99,6 +101,8 @@ class Evaluator {
   std::vector<Motion<double>> link_acceleration_;
   std::vector<double> acceleration_, reaction_, residual_, correction_, none_;
   std::vector<double> nearest_;  // y moved onto the constraints
+  std::vector<int> modes_before_;
+  std::vector<double> mode_rate_;  // rates while modes are chosen
 };
 
 }  // namespace kingpin::mechanism

@@ -15,7 +15,7 @@ JacobianEvaluator::JacobianEvaluator(const System& system)
       unit_(system.model.velocities),
       direction_(system.model.positions) {}
 
-void JacobianEvaluator::Calc(double time, std::span<const double> y, std::span<const double> active,
+bool JacobianEvaluator::Calc(double time, std::span<const double> y, std::span<const double> active,
                              Eigen::Ref<Eigen::MatrixXd> jacobian, Eigen::MatrixXd* reactions) {
   constexpr int kLanes = 8;
   const Model& model = system_.model;
@@ -69,6 +69,7 @@ void JacobianEvaluator::Calc(double time, std::span<const double> y, std::span<c
       for (int i = 0; i < nz; ++i) jacobian(nv + i, first + lane) = state_rates_[i].d[lane];
     }
   }
+  return jacobian.allFinite();
 }
 
 }  // namespace kingpin::mechanism

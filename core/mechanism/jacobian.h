@@ -12,15 +12,15 @@ namespace kingpin::mechanism {
 /// position moved at unit joint velocity, so that quaternions have three), velocities, states. Size
 /// (velocities + states) x (2 velocities + states).
 ///
-/// Rows that are active in `active` constrain; where pivots vanish the derivatives do, too, and are
-/// not finite.
+/// Rows that are active in `active` constrain.
 class JacobianEvaluator {
  public:
   explicit JacobianEvaluator(const System& system);
 
   /// @param reactions unless null, the same derivatives of the reactions R, rows x columns; 0 for
   /// rows that are redundant or not active
-  void Calc(double time, std::span<const double> y, std::span<const double> active,
+  /// @returns whether they are finite; in a singular position, where pivots vanish, they are not
+  bool Calc(double time, std::span<const double> y, std::span<const double> active,
             Eigen::Ref<Eigen::MatrixXd> jacobian, Eigen::MatrixXd* reactions = nullptr);
 
   int rows() const { return system_.model.velocities + system_.states; }

@@ -45,7 +45,15 @@ class ForceGroup {
   virtual void AddForces(const ForceContext<double>& context) const = 0;
   virtual void AddForces(const ForceContext<Dual8>& context) const = 0;
   virtual EnergyRates CalcEnergy(const ForceContext<double>& context) const = 0;
+  /// Which element's force or state rate is not a finite number at a state that is: its name, "" if
+  /// all are finite. Overwrites the forces in the workspace; for messages only.
+  virtual std::string FindNotFinite(const ForceContext<double>& context) const;
 };
+
+/// Takes all applied forces away from the workspace.
+void ClearForces(Workspace<double>& w);
+/// Whether all applied forces in the workspace are finite numbers.
+bool ForcesAreFinite(const Workspace<double>& w);
 
 /// A motion s(t) that a row of coordinates follows: value, rate, acceleration.
 using Drive = std::function<std::array<double, 3>(double time)>;

@@ -195,8 +195,7 @@ class Bdf : public SundialsStepper {
 
   static int CalcJacobian(double time, N_Vector y, N_Vector, SUNMatrix matrix, void* self, N_Vector,
                           N_Vector, N_Vector) {
-    static_cast<Bdf*>(self)->FillJacobian(time, y, matrix);
-    return 0;
+    return static_cast<Bdf*>(self)->FillJacobian(time, y, matrix) ? 0 : 1;
   }
   static int Correct(double time, N_Vector y, N_Vector correction, double /*tolerance*/,
                      N_Vector error, void* self) {
@@ -212,12 +211,13 @@ class Bdf : public SundialsStepper {
 
   // d(q̇, v̇, ż)/d(q, v, z). The accelerations' derivatives come along directions of motion u; for
   // quaternions q = N u, so that ∂/∂q = ∂/∂u Nᵀ (NᵀN)⁻¹, and N(q) has orthogonal columns.
-  void FillJacobian(double time, N_Vector state, SUNMatrix matrix) {
+  // @returns false in a singular position, which a shorter step avoids
+  bool FillJacobian(double time, N_Vector state, SUNMatrix matrix) {
     const mechanism::System& system = callbacks_.evaluator->system();
     const mechanism::Model& model = system.model;
     const int nq = model.positions, nv = model.velocities, nz = system.states, n = nv + nz;
     const std::span<const double> y(N_VGetArrayPointer(state), system.size());
-    derivatives_.Calc(time, y, callbacks_.evaluator->workspace().active, dense_);
+    if (!derivatives_.Calc(time, y, callbacks_.evaluator->workspace().active, dense_)) return false;
     SUNMatZero(matrix);
     std::vector<double> unit(nv, 0.0), direction(nq);
     for (int j = 0; j < nv; ++j) {
@@ -239,6 +239,7 @@ class Bdf : public SundialsStepper {
       for (int i = 0; i < n; ++i) SM_ELEMENT_D(matrix, nq + i, nq + nv + j) = dense_(i, 2 * nv + j);
     }
     ++jacobians;
+    return true;
   }
 
   mechanism::JacobianEvaluator derivatives_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <stdexcept>
 
 #include "core/mechanism/dynamics.h"
 #include "core/mechanism/evaluator.h"
@@ -83,7 +84,10 @@ Linearisation Linearise(const mechanism::System& system, double time, std::span<
   mechanism::JacobianEvaluator derivatives(system);
   Eigen::MatrixXd jacobian(derivatives.rows(), derivatives.columns());
   Eigen::MatrixXd reactions(model.rows, derivatives.columns());
-  derivatives.Calc(time, y, evaluator.workspace().active, jacobian, &reactions);
+  if (!derivatives.Calc(time, y, evaluator.workspace().active, jacobian, &reactions)) {
+    throw std::runtime_error(
+        "the mechanism is in a singular position, about which it has no linearisation");
+  }
 
   Linearisation linear;
   linear.position_basis = CalcNullSpace(model, q, Rows::kHolonomic);

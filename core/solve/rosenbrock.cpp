@@ -27,7 +27,7 @@ constexpr double kEmbedded[4] = {3.7810903145819369e-01, -9.6042292212423178e-02
 Rosenbrock::Rosenbrock(const mechanism::System& system)
     : system_(system), derivatives_(system), stage_(system.size()), rate_(system.size()) {
   const int n = derivatives_.rows(), nv = system.model.velocities;
-  jacobian_.resize(n, derivatives_.columns());
+  jacobian_ = fresh_ = Eigen::MatrixXd::Zero(n, derivatives_.columns());
   matrix_.resize(n, n);
   factor_ = Eigen::PartialPivLU<Eigen::MatrixXd>(n);
   k_x_.resize(n, kStages);
@@ -42,7 +42,8 @@ Rosenbrock::Rosenbrock(const mechanism::System& system)
 
 void Rosenbrock::UpdateJacobian(mechanism::Evaluator& evaluator, double time,
                                 std::span<const double> y) {
-  derivatives_.Calc(time, y, evaluator.workspace().active, jacobian_);
+  if (!derivatives_.Calc(time, y, evaluator.workspace().active, fresh_)) return;
+  jacobian_.swap(fresh_);
   factored_step_ = 0;
 }
 

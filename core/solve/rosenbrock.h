@@ -12,7 +12,8 @@ namespace kingpin::solve {
 /// Linearly implicit fixed-step method for stiff mechanisms: ROS34PW2 of Rang and Angermann (New
 /// Rosenbrock W-methods of order 3 for partial differential algebraic equations of index 1, BIT 45,
 /// 2005), four stages, L-stable. It is a W-method: order 3 holds for any matrix in place of the
-/// Jacobian, so that an old Jacobian costs stability and no order.
+/// Jacobian, so that an old Jacobian costs stability and no order. Forces and motions that are
+/// functions of time need no ∂f/∂t: time is one more state, whose column of the matrix is zero.
 ///
 /// With x = (v, z), ẋ = f(q, x), q̇ = N(q) v, and the Jacobian B = ∂f/∂(position directions), J =
 /// ∂f/∂x the position part of a stage is eliminated:
@@ -28,7 +29,8 @@ class Rosenbrock {
  public:
   explicit Rosenbrock(const mechanism::System& system);
 
-  /// The Jacobian of the steps to come is taken here. Call it every step or every few steps.
+  /// The Jacobian of the steps to come is taken here. Call it every step or every few steps. In a
+  /// singular position there is none, and the last one is kept: any matrix keeps the order.
   void UpdateJacobian(mechanism::Evaluator& evaluator, double time, std::span<const double> y);
 
   /// y from time to time + step; constraints are not projected here.
@@ -41,7 +43,7 @@ class Rosenbrock {
 
   const mechanism::System& system_;
   mechanism::JacobianEvaluator derivatives_;
-  Eigen::MatrixXd jacobian_, matrix_;
+  Eigen::MatrixXd jacobian_, fresh_, matrix_;
   Eigen::PartialPivLU<Eigen::MatrixXd> factor_;
   double factored_step_ = 0;
   std::vector<double> stage_, rate_;

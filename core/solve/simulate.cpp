@@ -156,6 +156,7 @@ class Run {
     }
     evaluator_.Project(time, y_, options_.stepper.projection_tolerance, 0);
     evaluator_.CalcRates(time, y_, rate_);
+    energy_ = evaluator_.CalcEnergy(time, y_);  // powers jump with the forces
     stepper_->Restart();
   }
 
