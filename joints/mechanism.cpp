@@ -214,6 +214,12 @@ class Maker {
              "a right angle");
       }
     }
+    if (joint.type == JointType::kPlanar && !(joint.axis.z > 1 - 1e-6)) {
+      Fail(joint.source, key + ".axis",
+           fmt::format("({:g}, {:g}, {:g}) of a planar joint", joint.axis.x, joint.axis.y,
+                       joint.axis.z),
+           "(0, 0, 1): it moves in the xy plane of the joint frame", "turn that frame");
+    }
     if (!std::isfinite(joint.pitch))
       Fail(joint.source, key + ".pitch", "a number that is not finite", "m/rad");
   }
@@ -523,8 +529,13 @@ class Maker {
   void AddMotion(const MotionDescription& motion) {
     const std::string key = fmt::format("motions.{}", motion.name);
     mechanism::LinearRow row;
-    row.terms.push_back(MakeTerm(motion.source, key, motion.joint, motion.coordinate, 1, false));
-    row.row = AddRows(motion.name, motion.source, {""});
+    for (const Mechanism::JointPlace& place : mechanism_.joints) {
+      // a quaternion has no coordinates of its own for the row to hold: its rates follow
+      if (place.name == motion.joint) row.rate_only = place.positions != place.velocities;
+    }
+    row.terms.push_back(
+        MakeTerm(motion.source, key, motion.joint, motion.coordinate, 1, row.rate_only));
+    row.row = AddRows(motion.name, motion.source, {""}, !row.rate_only);
     mechanism_.system.drives[row.row] = motion.motion;
     mechanism_.system.model.linear.push_back(std::move(row));
   }
@@ -560,7 +571,13 @@ class Maker {
     element.preload = friction.preload;
     element.stribeck = friction.stribeck;
     element.stribeck_speed = friction.stribeck_speed;
-    if (friction.from_joint) element.normal_link = mechanism_.GetJoint(friction.joint).link;
+    if (friction.from_joint) {
+      // of a joint that is a chain, the link of this coordinate: its kind says which part of the
+      // force is normal to the motion
+      const Mechanism::JointPlace& place = mechanism_.GetJoint(friction.joint);
+      const bool chain = place.positions == place.velocities;
+      element.normal_link = place.link - (chain ? place.velocities - 1 - friction.coordinate : 0);
+    }
     for (const std::string& name : friction.from_closures) {
       const auto found = std::find_if(mechanism_.rows.begin(), mechanism_.rows.end(),
                                       [&](const auto& place) { return place.name == name; });

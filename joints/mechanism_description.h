@@ -107,7 +107,9 @@ struct CouplingDescription {
   Source source;
 };
 
-/// A coordinate that follows a motion s(t); the force it takes is the row's reaction.
+/// A coordinate that follows a motion s(t); the force it takes is the row's reaction. Spherical and
+/// free joints follow ṡ(t) with a velocity coordinate (axes of the child), their quaternions follow
+/// from there.
 struct MotionDescription {
   std::string name;
   std::string joint;

@@ -1,5 +1,7 @@
 #include "joints/mechanism_names.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "core/io/nearest_name.h"
@@ -74,7 +76,11 @@ std::string GetReactionUnit(const Mechanism& mechanism, int row) {
   for (const mechanism::LinearRow& linear : mechanism.system.model.linear) {
     if (linear.row != row) continue;
     const auto coordinates = ListVelocityNames(mechanism);
-    return linear.terms.size() == 1 && coordinates[linear.terms[0].v].turns ? "N m" : "N";
+    // a gear between angles has a torque; with a displacement in it the row is one of lengths
+    return std::all_of(linear.terms.begin(), linear.terms.end(),
+                       [&](const auto& term) { return coordinates[term.v].turns; })
+               ? "N m"
+               : "N";
   }
   for (const mechanism::PerpendicularClosure& c : mechanism.system.model.perpendiculars) {
     if (c.row == row) return "N m";

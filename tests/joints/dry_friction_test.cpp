@@ -132,5 +132,107 @@ TEST(DryFriction, StickSlipHasTheExactPeriod) {
   }
 }
 
+// State at `duration` and the largest imbalance of energy at a fixed step.
+struct Result {
+  double x, v, imbalance;
+};
+Result RunBlock(const FrictionDescription& friction, double x0, double v0, Method method,
+                double duration, double step) {
+  Mechanism mechanism = MakeMechanism(MakeBlock(1, x0, v0, friction));
+  mechanism.system.Add(std::make_unique<CoordinateSpring>(0, 0, 1));
+  std::vector<double> y = mechanism.start;
+  const solve::Ledger ledger = Simulate(mechanism.system, MakeOptions(method, duration, step), y,
+                                        [](double, auto, auto&) {});
+  return {y[0], y[1], ledger.largest_energy_error};
+}
+
+double CalcOrder(double coarse, double fine) { return std::log2(std::abs(coarse / fine)); }
+
+// Events are located inside the step and the step is taken anew up to them, so that every piece
+// between two events is smooth, and the methods keep the order that they have without friction.
+TEST(DryFriction, FixedStepMethodsKeepTheirOrderOnTheCoulombOscillator) {
+  const double F = 0.1, T = 10.7;  // in the fourth half cycle: about -F from -0.4, or 1 - 6 F
+  const double phase = T - 3 * std::numbers::pi;
+  const double exact_x = -F - (0.4 - F) * std::cos(phase), exact_v = (0.4 - F) * std::sin(phase);
+  for (Method method : {Method::kRungeKutta4, Method::kRosenbrock}) {
+    const int order = method == Method::kRungeKutta4 ? 4 : 3;
+    const auto calc_error = [&](double step) {
+      const Result result = RunBlock(MakeFriction(F, F), 1, 0, method, T, step);
+      return std::hypot(result.x - exact_x, result.v - exact_v);
+    };
+    const double coarse = calc_error(0.04), fine = calc_error(0.02), finest = calc_error(0.01);
+    EXPECT_NEAR(CalcOrder(coarse, fine), order, 0.4) << coarse << ' ' << fine;
+    EXPECT_NEAR(CalcOrder(fine, finest), order, 0.4) << fine << ' ' << finest;
+  }
+}
+
+// Sticks to the belt until t = 5, slips until the belt has it again at x = 2 Fd - Fs, sticks.
+TEST(DryFriction, FixedStepMethodsKeepTheirOrderInStickSlip) {
+  const double Fs = 1, Fd = 0.5, belt = 0.2;
+  FrictionDescription friction = MakeFriction(Fs, Fd);
+  friction.counterpart = [=](double t) { return std::array<double, 3>{belt * t, belt, 0}; };
+  const double slip = 2 * std::numbers::pi - 2 * std::atan((Fs - Fd) / belt);
+  // at some time in the second slip
+  const double start = 5 + slip + 2 * (Fs - Fd) / belt, T = start + 2.3, phase = T - start;
+  const double exact_x = Fd + (Fs - Fd) * std::cos(phase) + belt * std::sin(phase);
+  const double exact_v = -(Fs - Fd) * std::sin(phase) + belt * std::cos(phase);
+  for (Method method : {Method::kRungeKutta4, Method::kRosenbrock}) {
+    const int order = method == Method::kRungeKutta4 ? 4 : 3;
+    const auto run = [&](double step) {
+      Result result = RunBlock(friction, 0, belt, method, T, step);
+      result.x -= exact_x, result.v -= exact_v;
+      return result;
+    };
+    const Result coarse = run(0.04), fine = run(0.02), finest = run(0.01);
+    EXPECT_NEAR(CalcOrder(std::hypot(coarse.x, coarse.v), std::hypot(fine.x, fine.v)), order, 0.5);
+    EXPECT_NEAR(CalcOrder(std::hypot(fine.x, fine.v), std::hypot(finest.x, finest.v)), order, 0.5);
+    // the books balance to the same order, although the powers jump when the block breaks away
+    EXPECT_GT(CalcOrder(coarse.imbalance, finest.imbalance), 2 * (order - 0.5))
+        << coarse.imbalance << ' ' << finest.imbalance;
+  }
+}
+
+// The normal force of a sliding coordinate is what is perpendicular to it, also in a joint that has
+// other coordinates: a sleeve on a shaft under an axial push slows down by μ g of its weight alone.
+TEST(DryFriction, TheNormalForceIsPerpendicularToTheCoordinate) {
+  for (JointType type : {JointType::kPrismatic, JointType::kCylindrical}) {
+    FrictionDescription friction = MakeFriction(0, 0);
+    friction.static_coefficient = friction.kinetic_coefficient = 0.3;
+    friction.from_joint = true;
+    MechanismDescription d = MakeBlock(2, 0, 1, friction);
+    d.gravity = {0, 0, -10};
+    d.joints[0].type = type;
+    d.joints[0].position = {};
+    d.joints[0].velocity =
+        type == JointType::kPrismatic ? std::vector<double>{1} : std::vector<double>{1, 0};
+    const Mechanism mechanism = MakeMechanism(d);
+    mechanism::Evaluator evaluator(mechanism.system);
+    std::vector<double> rate(mechanism.system.size());
+    evaluator.UpdateModes(0, mechanism.start, 1e-9);
+    evaluator.CalcRates(0, mechanism.start, rate);
+    EXPECT_NEAR(evaluator.accelerations()[0], -3, 1e-12) << static_cast<int>(type);
+  }
+}
+
+// With the adaptive method the times of events are those of the closed form.
+TEST(DryFriction, AdaptiveEventTimesAreExact) {
+  const double F = 0.1;
+  for (Method method : {Method::kExplicit8, Method::kBdf}) {
+    Mechanism mechanism = MakeMechanism(MakeBlock(1, 1, 0, MakeFriction(F, F)));
+    mechanism.system.Add(std::make_unique<CoordinateSpring>(0, 0, 1));
+    std::vector<double> y = mechanism.start, turns;
+    int mode = 0;
+    Simulate(mechanism.system, MakeOptions(method, 20), y, [&](double t, auto, auto& evaluator) {
+      if (mode != 0 && evaluator.modes()[0] != mode) turns.push_back(t);
+      mode = evaluator.modes()[0];
+    });
+    // 1, -0.8, 0.6, -0.4, 0.2, 0: 1 - 0.2 n
+    ASSERT_GE(turns.size(), 4);
+    for (int n = 0; n < 4; ++n) {
+      EXPECT_NEAR(turns[n], (n + 1) * std::numbers::pi, 1e-8) << static_cast<int>(method);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace kingpin::joints

@@ -104,6 +104,60 @@ TEST(MechanismFile, MistakesAreNamedWithFileLineAndKey) {
   }
 }
 
+TEST(MechanismFile, ADistanceIsThatOfTheStartWhateverClosuresStandBeforeIt) {
+  const Mechanism mechanism = MakeMechanism(ReadMechanismText(R"(kind: mechanism
+bodies:
+  a: {mass: 1 kg, inertia: [0.1, 0.1, 0.1]}
+  b: {mass: 1 kg, inertia: [0.1, 0.1, 0.1]}
+joints:
+  A: {type: free, child: a}
+  B: {type: free, child: b, at: [1, 0, 0]}
+closures:
+  C: {type: spherical, a: a, a_at: [1, 0, 0], b: b}
+  D: {type: distance, a: a, b: world, b_at: [0, 3, 4]}
+)",
+                                                              "two.yaml"));
+  ASSERT_EQ(mechanism.system.model.distances.size(), 1);
+  EXPECT_DOUBLE_EQ(mechanism.system.model.distances[0].length, 5);
+}
+
+// Two gears, and a rack on the second: torque between angles, force where a displacement takes
+// part.
+TEST(MechanismFile, ReactionsOfCouplingsHaveTheirUnits) {
+  const MechanismRun run = RunMechanism(ReadMechanismText(R"(kind: mechanism
+bodies:
+  pinion: {mass: 1 kg, inertia: [0.01, 0.01, 0.01]}
+  wheel: {mass: 1 kg, inertia: [0.02, 0.02, 0.02]}
+  rack: {mass: 2 kg, inertia: [0.02, 0.02, 0.02]}
+joints:
+  A: {type: revolute, child: pinion, axis: [0, 0, 1]}
+  B: {type: revolute, child: wheel, axis: [0, 0, 1]}
+  C: {type: prismatic, child: rack, axis: [1, 0, 0]}
+couplings:
+  gear: {terms: [{joint: A, factor: 2}, {joint: B, factor: 1}]}
+  mesh: {terms: [{joint: B, factor: 0.05}, {joint: C, factor: -1}]}
+motors:
+  motor: {joint: A, force: 3}
+simulation: {duration: 10 ms, sample_interval: 1 ms}
+)",
+                                                          "gears.yaml"));
+  // 3 N m on A, which B follows at -2, C at -0.1: inertia 0.01 + 4 0.02 + 0.01 2 = 0.11 kg m^2
+  const double a = 3 / 0.11;
+  const auto expect = [&](const std::string& name, const std::string& unit, double value) {
+    for (const auto& channel : run.signals.channels) {
+      if (channel.name != name) continue;
+      EXPECT_EQ(channel.unit, unit) << name;
+      EXPECT_NEAR(channel.values.front(), value, 1e-9) << name;
+      return;
+    }
+    ADD_FAILURE() << name;
+  };
+  expect("A.acceleration", "rad/s^2", a);
+  expect("C.acceleration", "m/s^2", -0.1 * a);
+  expect("gear.reaction", "N m", (0.01 * a - 3) / 2);
+  expect("mesh.reaction", "N", 2 * 0.1 * a);
+}
+
 TEST(MechanismFile, TheExamplesRunAndKeepTheirBooks) {
   int count = 0;
   for (const auto& entry :
