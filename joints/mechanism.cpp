@@ -48,7 +48,6 @@ struct Primitive {
 };
 
 std::vector<Primitive> ListPrimitives(const JointDescription& joint) {
-  const Vector3<double> x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};
   switch (joint.type) {
     case JointType::kFixed:
       return {};
@@ -62,8 +61,12 @@ std::vector<Primitive> ListPrimitives(const JointDescription& joint) {
       return {{JointKind::kPrismatic, joint.axis}, {JointKind::kRevolute, joint.axis}};
     case JointType::kUniversal:
       return {{JointKind::kRevolute, joint.axis}, {JointKind::kRevolute, joint.second_axis}};
-    case JointType::kPlanar:
-      return {{JointKind::kPrismatic, x}, {JointKind::kPrismatic, y}, {JointKind::kRevolute, z}};
+    case JointType::kPlanar: {
+      const Rotation<double> plane = math::MakeRotationWithZ(joint.axis);
+      return {{JointKind::kPrismatic, plane.x},
+              {JointKind::kPrismatic, plane.y},
+              {JointKind::kRevolute, joint.axis}};
+    }
     case JointType::kSpherical:
       return {{JointKind::kSpherical}};
     case JointType::kFree:
@@ -213,12 +216,6 @@ class Maker {
         Fail(joint.source, key + ".second_axis", "an axis that is not perpendicular to the first",
              "a right angle");
       }
-    }
-    if (joint.type == JointType::kPlanar && !(joint.axis.z > 1 - 1e-6)) {
-      Fail(joint.source, key + ".axis",
-           fmt::format("({:g}, {:g}, {:g}) of a planar joint", joint.axis.x, joint.axis.y,
-                       joint.axis.z),
-           "(0, 0, 1): it moves in the xy plane of the joint frame", "turn that frame");
     }
     if (!std::isfinite(joint.pitch))
       Fail(joint.source, key + ".pitch", "a number that is not finite", "m/rad");

@@ -41,8 +41,9 @@ enum class JointType {
   kCylindrical,  ///< displacement along, then angle about the axis
   kUniversal,  ///< angle about the axis (fixed in the parent), then about the second axis (fixed in
                ///< the child)
-  kPlanar,  ///< displacements along x and y of the joint frame, then angle about its z; the axis is
-            ///< that z
+  /// Displacements along two directions across the axis, then angle about it. The directions are x
+  /// and y of MakeRotationWithZ(axis): those of the joint frame if the axis is its z.
+  kPlanar,
   kSpherical,  ///< quaternion
   kFree,       ///< position, quaternion
 };

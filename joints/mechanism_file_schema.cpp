@@ -57,7 +57,7 @@ const io::Schema<Joint>& JointSchema() {
          {"cylindrical", JointType::kCylindrical, "displacement along, then angle about the axis"},
          {"universal", JointType::kUniversal, "angle about the axis, then about the second axis"},
          {"planar", JointType::kPlanar,
-          "x, y and angle in the plane normal to z of the joint frame"},
+          "two displacements across the axis (x and y if it is z), then angle about it"},
          {"spherical", JointType::kSpherical, "quaternion"},
          {"free", JointType::kFree, "position and quaternion"}},
         "how the child moves");

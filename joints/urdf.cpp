@@ -176,13 +176,6 @@ JointDescription MakeJoint(const std::string& name, const urdf::Joint& from,
   if (!has_axis) return joint;
   const Vector3<double> printed = Convert(from.axis);
   joint.axis = (1 / CalcNorm(printed)) * printed;
-  if (joint.type == JointType::kPlanar) {
-    // the plane is x, y of a joint frame whose z is the axis
-    const Transform<double> align{math::MakeRotationWithZ(joint.axis), {}};
-    joint.parent.X_BF = joint.parent.X_BF * align;
-    joint.child.X_BF = align;
-    joint.axis = {0, 0, 1};
-  }
   return joint;
 }
 
