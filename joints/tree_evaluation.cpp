@@ -6,6 +6,7 @@
 #include "core/mechanism/accelerations.h"
 #include "core/mechanism/inverse_dynamics.h"
 #include "core/mechanism/project.h"
+#include "core/mechanism/system.h"
 
 namespace kingpin::joints {
 
@@ -13,11 +14,6 @@ namespace {
 
 using mechanism::Model;
 using mechanism::Workspace;
-
-void ClearForces(Workspace<double>& w) {
-  std::fill(w.f.begin(), w.f.end(), math::Wrench<double>{});
-  std::fill(w.generalised.begin(), w.generalised.end(), 0.0);
-}
 
 void SetEnergy(const Model& model, const Workspace<double>& w, TreeEvaluation& result) {
   Vector3<double> moment;  // about the reference point
@@ -69,15 +65,15 @@ TreeEvaluation CalcTreeEvaluation(const Mechanism& mechanism, std::span<const do
 
   result.M = mechanism::CalcEquationMatrix(model, q);
   const std::vector<double> still(n, 0.0);
-  ClearForces(w);
+  mechanism::ClearForces(w);
   mechanism::CalcInverseDynamics(model, still.data(), w, result.bias.data());
 
   mechanism::UpdateVelocities(model, v.data(), w);
-  ClearForces(w);
+  mechanism::ClearForces(w);
   std::copy(force.begin(), force.end(), w.generalised.begin());
   mechanism::SolveAccelerations(model, {}, w, {result.qdd.data(), static_cast<size_t>(n)}, {});
 
-  ClearForces(w);
+  mechanism::ClearForces(w);
   mechanism::CalcInverseDynamics(model, acceleration.data(), w, result.tau.data());
   for (const mechanism::Frame& frame : frames) {
     result.frames.push_back(CalcFrameMotion(model, w, frame));

@@ -50,7 +50,7 @@ SparseLdltPattern::SparseLdltPattern(std::span<const int> order,
 void SparseLdltPattern::SetNodes(const Columns& columns) {
   for (int j = 0; j < unknowns_;) {
     int width = 1;
-    while (width < kWidest && columns[j + width - 1][0] == j + width &&
+    while (width < kWidest && j + width < unknowns_ && columns[j + width - 1][0] == j + width &&
            columns[j + width - 1].size() == columns[j + width].size() + 1) {
       ++width;
     }

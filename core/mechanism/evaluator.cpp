@@ -25,7 +25,7 @@ Evaluator::Evaluator(const System& system)
       modes_(system.friction.size()),
       normal_(system.friction.size()),
       slip_(system.friction.size()),
-      applied_(system.model.links.size()),
+      applied_(w_.f.size()),
       joint_(system.model.links.size()),
       applied_generalised_(system.model.velocities),
       link_acceleration_(system.model.links.size()),

@@ -87,6 +87,8 @@ class AbsoluteFormulation {
     Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> solver(unit.asDiagonal() * K *
                                                                    unit.asDiagonal());
     rank_ = static_cast<int>(solver.rank()) - n;
+    const Eigen::VectorXd pivots = solver.matrixQTZ().diagonal().head(solver.rank()).cwiseAbs();
+    condition_ = pivots.maxCoeff() / pivots.minCoeff();
     const Eigen::MatrixXd scaled = unit.asDiagonal() * K * unit.asDiagonal();
     Eigen::VectorXd x = solver.solve(unit.asDiagonal() * right);
     x += solver.solve(unit.asDiagonal() * right - scaled * x);
@@ -97,6 +99,10 @@ class AbsoluteFormulation {
 
   /// Number of constraint equations less their rank.
   int CountDependentRows() const { return static_cast<int>(rows_.size()) - rank_; }
+
+  /// Largest over smallest pivot of the equations in units that make masses one: what rounding is
+  /// magnified by.
+  double condition() const { return condition_; }
 
   /// dv/dt in the engine's coordinates, from the bodies' accelerations.
   Eigen::VectorXd CalcJointAccelerations() const {
@@ -519,6 +525,7 @@ class AbsoluteFormulation {
   std::vector<Row> rows_;
   Eigen::VectorXd acceleration_, reaction_;
   int rank_ = 0;
+  double condition_ = 1;
 };
 
 }  // namespace kingpin::joints

@@ -246,11 +246,13 @@ int ExpectAgreement(const MechanismDescription& d, RandomDescription& random,
   evaluator.CalcRates(0, mechanism.start, rate);
   AbsoluteFormulation absolute(d, mechanism);
   absolute.Solve(mechanism.start, 0, loads);
+  // beside a singular position rounding alone is more: a unit in the last place of what was given
+  const double tolerance = std::max(kTolerance, 1e-16 * absolute.condition());
 
   const int nv = mechanism.system.model.velocities;
   const Eigen::Map<const Eigen::VectorXd> ours(evaluator.accelerations().data(), nv);
   const Eigen::VectorXd theirs = absolute.CalcJointAccelerations();
-  EXPECT_LT((ours - theirs).norm(), kTolerance * theirs.norm())
+  EXPECT_LT((ours - theirs).norm(), tolerance * theirs.norm())
       << what << "\nengine   " << ours.transpose() << "\nabsolute " << theirs.transpose();
   if (absolute.CountDependentRows() > 0) return absolute.CountDependentRows();
 
@@ -260,7 +262,7 @@ int ExpectAgreement(const MechanismDescription& d, RandomDescription& random,
     const std::vector<double> reaction = absolute.GetReaction(place.name);
     EXPECT_EQ(static_cast<int>(reaction.size()), place.count) << what;
     for (int r = 0; r < place.count; ++r) {
-      EXPECT_NEAR(evaluator.reactions()[place.first + r], reaction[r], kTolerance * size)
+      EXPECT_NEAR(evaluator.reactions()[place.first + r], reaction[r], tolerance * size)
           << what << ": " << mechanism.system.model.row_names[place.first + r];
     }
   }
@@ -274,7 +276,7 @@ int ExpectAgreement(const MechanismDescription& d, RandomDescription& random,
     wrench << t.x, t.y, t.z, w.f.x, w.f.y, w.f.z;
     const Eigen::Matrix<double, 6, 1> other = absolute.CalcJointWrench(joint);
     // a light joint may carry a small difference of what its neighbours carry
-    EXPECT_LT((wrench - other).norm(), kTolerance * (10 + size + other.norm()))
+    EXPECT_LT((wrench - other).norm(), tolerance * (10 + size + other.norm()))
         << what << ": " << joint.name << "\nengine   " << wrench.transpose() << "\nabsolute "
         << other.transpose();
   }
@@ -300,7 +302,7 @@ TEST(AbsoluteFormulation, AgreesOnLoopsOfEveryClosureType) {
   RandomDescription random(20110118);
   int loops = 0;
   std::set<ClosureType> seen;
-  for (int trial = 0; trial < 66; ++trial) {
+  for (int trial = 0; trial < 330; ++trial) {
     MechanismDescription d = random.MakeTree(5 + trial % 4, kJointTypes);
     int freedom = CountCoordinates(d);
     // the type of this trial first, then any, as long as two coordinates stay free

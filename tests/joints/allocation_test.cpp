@@ -102,7 +102,9 @@ TEST(Allocation, NoneInTheTimeLoop) {
       EXPECT_EQ(counted.allocations, 0)
           << mechanism.system.name << ", method " << static_cast<int>(method);
       EXPECT_GE(counted.steps, 2000);
-      if (!mechanism.system.friction.empty()) EXPECT_GT(counted.switches, 4);
+      if (!mechanism.system.friction.empty()) {
+        EXPECT_GT(counted.switches, 0);
+      }
     }
   }
 }

@@ -71,7 +71,7 @@ Mechanism MakeDriven(bool stiff) {
 
 TEST(ExplicitTime, MethodsKeepTheirOrder) {
   const Mechanism driven = MakeDriven(false);
-  EXPECT_NEAR(CalcOrder(driven, Method::kRungeKutta4, 0.5, 4e-3), 4, 0.3);
+  EXPECT_NEAR(CalcOrder(driven, Method::kRungeKutta4, 0.5, 1e-3), 4, 0.3);
   EXPECT_NEAR(CalcOrder(driven, Method::kRosenbrock, 0.5, 2e-3), 3, 0.3);
   EXPECT_NEAR(CalcOrder(driven, Method::kRosenbrock, 0.5, 2e-3, 20), 3, 0.3);
   EXPECT_NEAR(CalcOrder(MakeDriven(true), Method::kRosenbrock, 0.5, 2e-3), 3, 0.3);
@@ -126,9 +126,9 @@ TEST(PrescribedMotion, IsFollowedByEveryCoordinateOfEveryJoint) {
            {Method::kRungeKutta4, Method::kRosenbrock, Method::kExplicit8, Method::kBdf}) {
         solve::SimulationOptions options;
         options.stepper.method = method;
-        options.stepper.step = 1e-3;
+        options.stepper.step = 2.5e-4;
         options.duration = 0.5;
-        options.sample_interval = 0.01;
+        options.sample_interval = 1e-3;  // adaptive steps end there: the books are of order four
         std::vector<double> y = mechanism.start;
         const solve::Ledger ledger = Simulate(
             mechanism.system, options, y, [&](double t, auto state, mechanism::Evaluator& e) {
