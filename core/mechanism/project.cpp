@@ -23,7 +23,12 @@ Eigen::VectorXd SolveGradients(const Model& model, const std::vector<RowGroup>& 
   for (size_t g = 0; g < groups.size(); ++g) {
     if (groups[g].coordinates.empty()) continue;
     const Eigen::VectorXd b = right(groups[g].rows);
-    const Eigen::VectorXd part = J[g].completeOrthogonalDecomposition().solve(b);
+    // A dependent row is only as dependent as the position is exact: taken for an independent one
+    // it would throw the mechanism off its constraints.
+    Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> decomposition;
+    decomposition.setThreshold(1e-8);
+    decomposition.compute(J[g]);
+    const Eigen::VectorXd part = decomposition.solve(b);
     x(groups[g].coordinates) = part;
   }
   return x;
