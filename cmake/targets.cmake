@@ -50,5 +50,5 @@ function(kingpin_test name)
   target_compile_definitions(${name} PRIVATE
     KINGPIN_SOURCE_DIR="${PROJECT_SOURCE_DIR}" KINGPIN_BINARY_DIR="${CMAKE_BINARY_DIR}")
   target_precompile_headers(${name} PRIVATE ${PROJECT_SOURCE_DIR}/cmake/precompiled_test.h)
-  gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 900)
+  gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 NO_PRETTY_VALUES PROPERTIES TIMEOUT 900)
 endfunction()

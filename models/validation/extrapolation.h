@@ -17,7 +17,7 @@ using Rates = std::function<void(Real time, const State& y, State& rate)>;
 
 /// y from one time to another by extrapolation of the modified midpoint rule (Gragg, Bulirsch,
 /// Stoer; Hairer, Nørsett and Wanner, Solving ODEs I, II.9): order 16 from eight subdivisions 2, 4,
-/// ..., 16, each step controlled to `tolerance` relative to |y| + |h ẏ| per component. Shares no
+/// ..., 16, each step controlled to `tolerance` relative to the largest |y| + |h ẏ|. Shares no
 /// line with the engine that it judges.
 /// @throws std::runtime_error if the step vanishes
 inline void Integrate(const Rates& rates, Real from, Real to, State& y, Real tolerance = 1e-18L) {
@@ -55,10 +55,12 @@ inline void Integrate(const Rates& rates, Real from, Real to, State& y, Real tol
       }
       table[k] = column;
     }
+    Real scale = 0;  // of the whole: a component near zero carries the rounding of the others
     for (size_t i = 0; i < n; ++i) {
-      const Real scale = std::abs(y[i]) + std::abs(h * start[i]) + 1e-12L;
-      error = std::max(error, std::abs(table[kColumns - 1][i] - table[kColumns - 2][i]) / scale);
+      scale = std::max(scale, std::abs(y[i]) + std::abs(h * start[i]));
+      error = std::max(error, std::abs(table[kColumns - 1][i] - table[kColumns - 2][i]));
     }
+    error /= scale + 1e-30L;
     if (error <= tolerance) {
       time = h < to - time ? time + h : to;
       y = table[kColumns - 1];
