@@ -156,6 +156,10 @@ void AddSummaryTable(const MechanismRun& run, report::Page& page) {
   row("Largest error of the energy balance", Number(energy["largest_error"].get<double>(), 2), "J");
   row("Largest kinetic energy, to judge it by", Number(energy["largest_kinetic"].get<double>(), 4),
       "J");
+  row("Largest error of the balance of momentum",
+      Number(s["momentum"]["largest_error"].get<double>(), 2), "N s");
+  row("Largest error of the balance of angular momentum",
+      Number(s["angular_momentum"]["largest_error"].get<double>(), 2), "N m s");
   row("Switches of dry friction", count(s["friction_switches"]), "");
   page.Add(table.MakeHtml());
 }
@@ -202,8 +206,17 @@ void AddFriction(const MechanismRun& run, report::Page& page) {
   }
 }
 
-void AddEnergies(const MechanismRun& run, report::Page& page) {
-  page.AddHeading(2, "Energies and residuals");
+std::string DrawMomentum(const MechanismRun& run, const char* title, const char* name,
+                         const char* quantity, const char* unit) {
+  LineChart chart = MakeChart(title, name, unit);
+  for (const char* axis : {"x", "y", "z"}) {
+    AddLine(run, *FindChannel(run, fmt::format("{}.{}", quantity, axis)), axis, chart);
+  }
+  return report::DrawLineChart(chart);
+}
+
+void AddBooks(const MechanismRun& run, report::Page& page) {
+  page.AddHeading(2, "Energy, momentum and residuals");
   LineChart energies = MakeChart("Energies", "Energy", "J");
   for (const char* part : {"kinetic", "potential", "total", "dissipated", "supplied"}) {
     const io::Signals::Channel* channel = FindChannel(run, fmt::format("energy.{}", part));
@@ -214,7 +227,10 @@ void AddEnergies(const MechanismRun& run, report::Page& page) {
   LineChart balance = MakeChart("Balance: total − start − supplied + dissipated", "Balance", "J");
   AddLine(run, *FindChannel(run, "energy.balance"), "balance", balance);
   balance.legend = false;
-  std::string charts = report::DrawLineChart(energies) + report::DrawLineChart(balance);
+  std::string charts = report::DrawLineChart(energies) + report::DrawLineChart(balance) +
+                       DrawMomentum(run, "Momentum", "Momentum", "momentum", "N s") +
+                       DrawMomentum(run, "Angular momentum about the world's origin",
+                                    "Angular momentum", "angular_momentum", "N m s");
   if (run.rows > 0) {
     LineChart residuals = MakeChart("Largest residuals of the constraints", "Residual", "");
     residuals.y.scale = report::Scale::kLog;
@@ -259,7 +275,7 @@ std::string MakeMechanismReport(const joints::MechanismRun& run) {
             {{"rad", "Angle"}, {"m", "Displacement"}, {"1", "Quaternion"}}, page);
   AddCharts(run, "Rates", rates, ".rate", {{"rad/s", "Angular velocity"}, {"m/s", "Velocity"}},
             page);
-  AddEnergies(run, page);
+  AddBooks(run, page);
   AddCharts(run, "Reactions", run.shown_reactions, ".reaction", {{"N", "Force"}, {"N m", "Torque"}},
             page);
   AddFriction(run, page);

@@ -192,6 +192,12 @@ MechanismRun RunMechanism(const MechanismFile& given) {
   for (const char* part : {"kinetic", "potential", "total", "dissipated", "supplied", "balance"}) {
     add(fmt::format("energy.{}", part), "J");
   }
+  for (const char* part : {"x", "y", "z", "balance"}) {
+    add(fmt::format("momentum.{}", part), "N s");
+  }
+  for (const char* part : {"x", "y", "z", "balance"}) {
+    add(fmt::format("angular_momentum.{}", part), "N m s");
+  }
   add("residual.position", "1");
   add("residual.velocity", "1");
   run.positions = model.positions;
@@ -221,6 +227,13 @@ MechanismRun RunMechanism(const MechanismFile& given) {
     put(ledger.supplied);
     put(energy.kinetic + energy.potential - ledger.energy_start - ledger.supplied +
         ledger.dissipated);
+    const math::Wrench<double> momentum = evaluator.CalcMomentum();
+    const math::Wrench<double> error = momentum - ledger.momentum_start - ledger.impulse;
+    const auto put_vector = [&](const math::Vector3<double>& v, const math::Vector3<double>& off) {
+      for (double value : {v.x, v.y, v.z, CalcNorm(off)}) put(value);
+    };
+    put_vector(momentum.f, error.f);
+    put_vector(momentum.t, error.t);
     const auto residuals = evaluator.CalcResiduals(time, state);
     put(residuals.position);
     put(residuals.velocity);
@@ -257,6 +270,22 @@ MechanismRun RunMechanism(const MechanismFile& given) {
                            {"dissipated", ledger.dissipated},
                            {"largest_kinetic", ledger.largest_kinetic},
                            {"largest_error", ledger.largest_energy_error}};
+  const auto momentum = [](const char* unit, math::Vector3<double> start, math::Vector3<double> end,
+                           math::Vector3<double> impulse, double largest_error) {
+    const auto list = [](const math::Vector3<double>& v) {
+      return nlohmann::ordered_json{v.x, v.y, v.z};
+    };
+    return nlohmann::ordered_json{{"unit", unit},
+                                  {"start", list(start)},
+                                  {"end", list(end)},
+                                  {"impulse", list(impulse)},
+                                  {"largest_error", largest_error}};
+  };
+  run.summary["momentum"] = momentum("N s", ledger.momentum_start.f, ledger.momentum_end.f,
+                                     ledger.impulse.f, ledger.largest_momentum_error);
+  run.summary["angular_momentum"] =
+      momentum("N m s", ledger.momentum_start.t, ledger.momentum_end.t, ledger.impulse.t,
+               ledger.largest_angular_momentum_error);
   if (!trimmed.empty()) run.summary["equilibrium"] = MakeJson(trimmed);
   run.summary["friction_switches"] = ledger.switches;
   if (!stops.empty()) run.summary["stops"] = stops.MakeJson();
@@ -279,11 +308,12 @@ MechanismRun RunMechanism(const MechanismFile& given) {
       "{:g} s by {}: {} steps\n"
       "Largest residual of the constraints: {:.1e} m or rad, {:.1e} m/s or rad/s\n"
       "Energy: start {:.6g} J, end {:.6g} J, supplied {:.6g} J, dissipated {:.6g} J\n"
-      "Balance of energy off by {:.1e} J, largest kinetic energy {:.6g} J\n",
+      "Balance of energy off by {:.1e} J, largest kinetic energy {:.6g} J\n"
+      "Balance of momentum off by {:.1e} N s, of angular momentum by {:.1e} N m s\n",
       file.simulation.duration, GetMethodName(file.simulation.stepper.method), ledger.steps,
       ledger.largest_position_residual, ledger.largest_velocity_residual, ledger.energy_start,
       ledger.energy_end, ledger.supplied, ledger.dissipated, ledger.largest_energy_error,
-      ledger.largest_kinetic);
+      ledger.largest_kinetic, ledger.largest_momentum_error, ledger.largest_angular_momentum_error);
   if (ledger.switches > 0)
     run.text += fmt::format("Dry friction switched {} time{}\n", ledger.switches,
                             ledger.switches == 1 ? "" : "s");

@@ -107,6 +107,7 @@ class SparseLdltPattern {
   /// position(unknown)).
   template <class S>
   KINGPIN_INLINE void BackSubstitute(const S* k, S* x) const {
+    if (unknowns_ == 0) return;
     const std::int32_t* row = row_.data() - (unknowns_ + 1);
     for (int j = unknowns_ - 1; j >= 0; --j) {
       const int first = begin_[j], last = begin_[j + 1] - 1;
@@ -125,6 +126,7 @@ class SparseLdltPattern {
   /// Solves K x = b for another right side in place; x in elimination order.
   template <class S>
   KINGPIN_INLINE void Solve(const S* k, S* x) const {
+    if (unknowns_ == 0) return;
     const std::int32_t* row = row_.data() - (unknowns_ + 1);
     for (int j = 0; j < unknowns_; ++j) {
       x[j] *= k[j];

@@ -211,7 +211,13 @@ void Evaluator::SolveWithFriction() {
       agrees &= std::abs(normal - normal_[f]) <= 1e-13 * std::abs(normal);
       normal_[f] = normal;
     }
-    if (agrees) return;
+    if (!agrees) continue;
+    for (size_t f = 0; f < modes_.size(); ++f) {
+      if (modes_[f] == 0) continue;
+      const Friction& friction = system_.friction[f];
+      reaction_[friction.row] = -modes_[f] * CalcKineticLimit(friction, normal_[f], slip_[f]);
+    }
+    return;
   }
   throw std::runtime_error(
       "dry friction and the normal force it depends on do not agree (a jam): the friction "
@@ -299,6 +305,7 @@ std::span<const Wrench<double>> Evaluator::CalcJointWrenches() {
   const Model& model = system_.model;
   const int links = static_cast<int>(model.links.size());
   link_acceleration_[0] = w_.A[0];
+  joint_[0] = {};
   for (int l = 1; l < links; ++l) {
     const Link& link = model.links[l];
     // A[l] - A[parent] is what the link's own motion adds at zero joint accelerations
@@ -329,6 +336,32 @@ std::span<const Wrench<double>> Evaluator::CalcJointWrenches() {
     joint_[model.links[l].parent] = joint_[model.links[l].parent] + joint_[l];
   }
   return joint_;
+}
+
+Wrench<double> Evaluator::CalcMomentum() const {
+  const Model& model = system_.model;
+  Wrench<double> momentum;
+  for (size_t l = 1; l < model.links.size(); ++l) {
+    const Link& link = model.links[l];
+    if (link.mass == 0) continue;
+    const auto I =
+        math::MakeInertia(link.mass, link.centre, link.central_inertia, w_.R[l], w_.p[l]);
+    momentum = momentum + I * w_.V[l];
+  }
+  return momentum.About(-w_.reference);
+}
+
+// The world is what the wrenches of the joints end in: joint_[0] is what the bodies need beyond the
+// applied forces, reactions of closures between bodies cancelled.
+Wrench<double> Evaluator::CalcExternalWrench() {
+  const Model& model = system_.model;
+  Wrench<double> external = CalcJointWrenches()[0];
+  for (size_t l = 1; l < model.links.size(); ++l) {
+    const Link& link = model.links[l];
+    const Vector3<double> centre = w_.R[l] * link.centre + w_.p[l];
+    external = external + applied_[l] + math::MakeWrench(centre, link.mass * model.gravity);
+  }
+  return external.About(-w_.reference);
 }
 
 double Evaluator::CalcPositionResiduals(const double* q) {
@@ -454,11 +487,9 @@ Energy Evaluator::CalcEnergy(double time, std::span<const double> y) {
     if (modes_[f] == 0) continue;
     const double slip = CalcSlip(static_cast<int>(f), y);
     energy.dissipated += CalcKineticLimit(system_.friction[f], normal_[f], slip) * std::abs(slip);
-    // a moving counterpart drives what rubs against it
-    energy.supplied -= modes_[f] * CalcKineticLimit(system_.friction[f], normal_[f], slip) *
-                       drive_rate_[system_.friction[f].row];
   }
-  // a driven row works with its reaction along its rate
+  // A driven row works with its reaction along its rate; so does a moving counterpart on what rubs
+  // against it.
   for (int r = 0; r < model.rows; ++r) energy.supplied += reaction_[r] * drive_rate_[r];
   return energy;
 }

@@ -30,6 +30,7 @@ class Evaluator {
   void CalcRates(double time, std::span<const double> y, std::span<double> rate);
 
   /// R of the last CalcRates, per row: on link a of the closure, in the row's direction [N, N m].
+  /// Of a row of dry friction that slides, the friction force.
   std::span<const double> reactions() const { return reaction_; }
   std::span<const double> accelerations() const { return acceleration_; }
   const Workspace<double>& workspace() const { return w_; }
@@ -71,6 +72,13 @@ class Evaluator {
 
   /// At (time, y) after CalcRates there.
   Energy CalcEnergy(double time, std::span<const double> y);
+
+  /// Momentum about the world's origin, world axes: linear in f [N s], angular in t [N m s]. After
+  /// CalcRates.
+  Wrench<double> CalcMomentum() const;
+  /// Rate of the momentum by what acts from outside, about the world's origin, world axes: gravity,
+  /// the world's force elements, and its supports through joints and closures. After CalcRates.
+  Wrench<double> CalcExternalWrench();
 
  private:
   void CalcRatesAt(double time, std::span<const double> y, std::span<double> rate);

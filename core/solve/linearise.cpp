@@ -99,7 +99,7 @@ Linearisation Linearise(const mechanism::System& system, double time, std::span<
 
   // δv = T_v η + E ξ keeps Dᵀ v = ṡ as the position moves
   Eigen::MatrixXd E = Eigen::MatrixXd::Zero(nv, linear.positions);
-  if (model.rows > 0) {
+  if (model.rows > 0 && linear.positions > 0) {
     Eigen::MatrixXd Dt = mechanism::CalcEquationMatrix(model, q).bottomLeftCorner(model.rows, nv);
     Eigen::MatrixXd turned = CalcRateDerivatives(model, q.data(), v.data());
     for (int r = 0; r < model.rows; ++r) {

@@ -157,6 +157,7 @@ class Run {
     evaluator_.Project(time, y_, options_.stepper.projection_tolerance, 0);
     evaluator_.CalcRates(time, y_, rate_);
     energy_ = evaluator_.CalcEnergy(time, y_);  // powers jump with the forces
+    external_ = evaluator_.CalcExternalWrench();
     stepper_->Restart();
   }
 
@@ -171,6 +172,8 @@ class Run {
     evaluator_.CalcRates(0, y_, rate_);
     energy_ = evaluator_.CalcEnergy(0, y_);
     ledger_.energy_start = ledger_.energy_end = energy_.kinetic + energy_.potential;
+    external_ = evaluator_.CalcExternalWrench();
+    ledger_.momentum_start = ledger_.momentum_end = evaluator_.CalcMomentum();
     Inspect(0);
   }
 
@@ -183,11 +186,15 @@ class Run {
     ledger_.largest_kinetic = std::max(ledger_.largest_kinetic, energy_.kinetic);
   }
 
-  // Power over the step by Simpson's rule, the middle state by Hermite interpolation: order 4.
+  // Power and outside forces over the step by Simpson's rule, the middle state by Hermite
+  // interpolation: order 4.
   void Book(double start, double end) {
     const double h = end - start;
     const mechanism::Energy before = energy_;
+    const math::Wrench<double> external_before = external_;
     energy_ = evaluator_.CalcEnergy(end, y_);
+    external_ = evaluator_.CalcExternalWrench();
+    ledger_.momentum_end = evaluator_.CalcMomentum();
     for (size_t i = 0; i < y_.size(); ++i) {
       middle_[i] = 0.5 * (before_[i] + y_[i]) + h / 8 * (rate_before_[i] - rate_[i]);
     }
@@ -201,6 +208,14 @@ class Run {
     ledger_.largest_energy_error =
         std::max(ledger_.largest_energy_error, std::abs(ledger_.energy_end - ledger_.energy_start -
                                                         ledger_.supplied + ledger_.dissipated));
+    const math::Wrench<double> external_between = evaluator_.CalcExternalWrench();
+    ledger_.impulse =
+        ledger_.impulse + h / 6 * (external_before + 4.0 * external_between + external_);
+    const math::Wrench<double> error =
+        ledger_.momentum_end - ledger_.momentum_start - ledger_.impulse;
+    ledger_.largest_momentum_error = std::max(ledger_.largest_momentum_error, CalcNorm(error.f));
+    ledger_.largest_angular_momentum_error =
+        std::max(ledger_.largest_angular_momentum_error, CalcNorm(error.t));
     evaluator_.CalcRates(end, y_, rate_);
     Inspect(end);
   }
@@ -215,6 +230,7 @@ class Run {
   std::vector<int> modes_;
   double at_rest_ = 0;
   mechanism::Energy energy_;
+  math::Wrench<double> external_;
   Ledger& ledger_;
 };
 

@@ -32,8 +32,13 @@ struct Ledger {
   double dissipated = 0, supplied = 0;      ///< over the run [J]
   double largest_energy_error = 0;  ///< of |E - E_start - supplied + dissipated| at any step [J]
   double largest_kinetic = 0;       ///< to judge it by [J]
-  double largest_position_residual = 0;  ///< [m, rad]
-  double largest_velocity_residual = 0;  ///< [m/s, rad/s]
+  /// About the world's origin, world axes: linear in f [N s], angular in t [N m s]. The impulse is
+  /// that of all that acts from outside over the run: gravity, forces and supports of the world.
+  math::Wrench<double> momentum_start, momentum_end, impulse;
+  double largest_momentum_error = 0;          ///< of |p - p_start - impulse| at any step [N s]
+  double largest_angular_momentum_error = 0;  ///< the same of the angular part [N m s]
+  double largest_position_residual = 0;       ///< [m, rad]
+  double largest_velocity_residual = 0;       ///< [m/s, rad/s]
   long steps = 0, jacobians = 0, switches = 0;
   std::vector<FrictionEvent> events;  ///< the first kMostEvents, those at the start among them
 };

@@ -149,9 +149,9 @@ TEST_F(Documentation, TheReportOfAMechanismHoldsItsPlots) {
       fmt::format("simulate '{}/examples/mechanisms/stick_slip.yaml' -o out", KINGPIN_SOURCE_DIR));
   ASSERT_EQ(outcome.status, 0) << outcome.errors;
   const std::string page = ReadAll(folder_ / "out/report.html");
-  for (const char* text :
-       {"<h1>block on a belt</h1>", "Degrees of freedom", "Coordinates", "Energies and residuals",
-        "Reactions", "Dry friction", "sticks", "slides backwards", "<svg", "</html>"}) {
+  for (const char* text : {"<h1>block on a belt</h1>", "Degrees of freedom", "Coordinates",
+                           "Energy, momentum and residuals", "Reactions", "Dry friction", "sticks",
+                           "slides backwards", "<svg", "</html>"}) {
     EXPECT_NE(page.find(text), std::string::npos) << text;
   }
   EXPECT_EQ(page.find("http://"), std::string::npos);

@@ -100,6 +100,25 @@ TEST(DryFriction, TheCoulombOscillatorTurnsAndStopsWhereItShould) {
   }
 }
 
+// Sliding or sticking, what the row exerts is m ẍ + k x, and sliding it is F against the motion.
+TEST(DryFriction, TheReactionIsTheFrictionForce) {
+  const double m = 2, k = 50, F = 4;
+  Mechanism mechanism = MakeMechanism(MakeBlock(m, 1, 0, MakeFriction(F, F)));
+  mechanism.system.Add(std::make_unique<CoordinateSpring>(0, 0, k));
+  std::vector<double> y = mechanism.start;
+  int sliding = 0, sticking = 0;
+  Simulate(mechanism.system, MakeOptions(Method::kExplicit8, 5), y,
+           [&](double, auto state, auto& evaluator) {
+             const double force = evaluator.reactions()[0];
+             EXPECT_NEAR(force, m * evaluator.accelerations()[0] + k * state[0], 1e-9);
+             const int mode = evaluator.modes()[0];
+             if (mode != 0) EXPECT_NEAR(force, -mode * F, 1e-12);
+             (mode == 0 ? sticking : sliding) += 1;
+           });
+  EXPECT_GT(sliding, 10);
+  EXPECT_GT(sticking, 10);
+}
+
 // Block on a belt, F_s = 1 above F_k = 0.5: sticks, breaks away at k x = F_s, slides about x =
 // F_k/k, sticks again.
 TEST(DryFriction, StickSlipHasTheExactPeriod) {
