@@ -317,6 +317,14 @@ class Maker {
     inertias_[child.link].Add(*bodies_.at(joint.child.body), child.X_LF);
   }
 
+  void CheckQuaternion(const JointDescription& joint, const Mechanism::JointPlace& place) const {
+    const double* w = &mechanism_.start[place.q + place.positions - 4];
+    const double norm = std::sqrt(w[0] * w[0] + w[1] * w[1] + w[2] * w[2] + w[3] * w[3]);
+    if (std::abs(norm - 1) < 1e-6) return;
+    Fail(joint.source, fmt::format("joints.{}.position", joint.name),
+         fmt::format("a quaternion (w, x, y, z) of length {:g}", norm), "one of length 1");
+  }
+
   void SetStart() {
     Model& model = mechanism_.system.model;
     mechanism_.start.assign(model.positions + model.velocities, 0.0);
@@ -344,6 +352,7 @@ class Maker {
       if (place.positions != place.velocities) mechanism_.start[place.q + place.positions - 4] = 1;
       if (set(joint.position, place.q, place.positions, "position",
               "coordinates; quaternions are w, x, y, z")) {
+        if (place.positions != place.velocities) CheckQuaternion(joint, place);
         std::fill_n(held_q_.begin() + place.v, place.velocities, 1);
       }
       if (set(joint.velocity, model.positions + place.v, place.velocities, "velocity",
@@ -385,9 +394,10 @@ class Maker {
     const auto perpendicular = [&](const Vector3<double>& u, const Vector3<double>& w, int row) {
       model.perpendiculars.push_back({a.link, b.link, u, w, row});
     };
+    // The torque of a perpendicular row is along u × w: z × -y = x, z × x = y.
     const auto parallel = [&](int row) {
-      perpendicular(a.X_LF.R.z, b.X_LF.R.x, row);
-      perpendicular(a.X_LF.R.z, b.X_LF.R.y, row + 1);
+      perpendicular(a.X_LF.R.z, -b.X_LF.R.y, row);
+      perpendicular(a.X_LF.R.z, b.X_LF.R.x, row + 1);
     };
     switch (closure.type) {
       case ClosureType::kSpherical:
@@ -426,6 +436,7 @@ class Maker {
         point(3, row);
         parallel(row + 2);
         perpendicular(a.X_LF.R.x, b.X_LF.R.y, row + 4);
+        aligned_.push_back({&closure, a, b});
         break;
       }
       case ClosureType::kCylindrical: {
@@ -446,6 +457,7 @@ class Maker {
         point(7, row);
         parallel(row + 3);
         perpendicular(a.X_LF.R.x, b.X_LF.R.y, row + 5);
+        aligned_.push_back({&closure, a, b});
         break;
       }
       case ClosureType::kRollingDisc: {
@@ -459,6 +471,21 @@ class Maker {
         break;
       }
     }
+  }
+
+  // The rows of a closure or coupling that are components of a force.
+  std::vector<int> ListForceRows(const Mechanism::RowPlace& place) const {
+    const Model& model = mechanism_.system.model;
+    std::vector<int> rows;
+    const auto add = [&](int first, int count) {
+      for (int r = first; r < first + count; ++r) {
+        if (r >= place.first && r < place.first + place.count) rows.push_back(r);
+      }
+    };
+    for (const auto& point : model.points) add(point.row, __builtin_popcount(point.axes));
+    for (const auto& distance : model.distances) add(distance.row, 1);
+    for (const auto& disc : model.discs) add(disc.row, 3);
+    return rows;
   }
 
   double CalcStartDistance(const mechanism::Frame& a, const mechanism::Frame& b) {
@@ -526,15 +553,36 @@ class Maker {
   void AddMotion(const MotionDescription& motion) {
     const std::string key = fmt::format("motions.{}", motion.name);
     mechanism::LinearRow row;
-    for (const Mechanism::JointPlace& place : mechanism_.joints) {
+    for (size_t j = 0; j < mechanism_.joints.size(); ++j) {
+      const Mechanism::JointPlace& place = mechanism_.joints[j];
+      if (place.name != motion.joint) continue;
       // a quaternion has no coordinates of its own for the row to hold: its rates follow
-      if (place.name == motion.joint) row.rate_only = place.positions != place.velocities;
+      row.rate_only = place.positions != place.velocities;
+      CheckStart(motion, key, *descriptions_[j], row.rate_only);
     }
     row.terms.push_back(
         MakeTerm(motion.source, key, motion.joint, motion.coordinate, 1, row.rate_only));
     row.row = AddRows(motion.name, motion.source, {""}, !row.rate_only);
     mechanism_.system.drives[row.row] = motion.motion;
     mechanism_.system.model.linear.push_back(std::move(row));
+  }
+
+  // A motion begins where its joint does.
+  void CheckStart(const MotionDescription& motion, const std::string& key,
+                  const JointDescription& joint, bool rate_only) const {
+    const double start = motion.motion(0)[0];
+    if (rate_only && start != 0) {
+      Fail(motion.source, key, fmt::format("a motion that starts at {:g}", start),
+           fmt::format("one that starts at 0: joint '{}' turns by a quaternion, its rates follow "
+                       "the motion's",
+                       joint.name));
+    }
+    const auto coordinate = static_cast<size_t>(motion.coordinate);
+    if (rate_only || coordinate >= joint.position.size()) return;
+    const double given = joint.position[coordinate];
+    if (!(std::abs(start - given) > 1e-9 * std::max(1.0, std::abs(given)))) return;
+    Fail(motion.source, key, fmt::format("a motion that starts at {:g}", start),
+         fmt::format("{:g}, where joint '{}' starts", given, joint.name));
   }
 
   void AddFriction(const FrictionDescription& friction) {
@@ -584,7 +632,12 @@ class Maker {
         Fail(friction.source, key + ".from_closures", fmt::format("'{}'", name),
              "the name of a closure", io::SuggestName(name, known, "closures"));
       }
-      for (int r = 0; r < found->count; ++r) element.normal_rows.push_back(found->first + r);
+      std::vector<int> rows = ListForceRows(*found);
+      if (rows.empty()) {
+        Fail(friction.source, key + ".from_closures", fmt::format("'{}'", name),
+             "a closure that holds points together or apart, so that it transmits a force");
+      }
+      element.normal_rows.push_back(std::move(rows));
     }
     mechanism_.system.model.switching.resize(row.row + 1, 0);
     mechanism_.system.model.switching[row.row] = 1;
@@ -605,7 +658,22 @@ class Maker {
     const std::span<double> v(mechanism_.start.data() + model.positions, model.velocities);
     FailIfOpen(mechanism::AssemblePositions(model, drive, held_q_, kAssemblyTolerance, q),
                "m or rad");
+    CheckAlignment(q);
     FailIfOpen(mechanism::AssembleVelocities(model, rate, held_v_, 1e-9, q, v), "m/s or rad/s");
+  }
+
+  // Rows that hold directions perpendicular are met half a turn away, too.
+  void CheckAlignment(std::span<const double> q) const {
+    if (aligned_.empty()) return;
+    mechanism::Workspace<double> w(mechanism_.system.model);
+    UpdatePositions(mechanism_.system.model, q.data(), w);
+    for (const auto& [closure, a, b] : aligned_) {
+      const Rotation<double> R_A = w.R[a.link] * a.X_LF.R, R_B = w.R[b.link] * b.X_LF.R;
+      if (Dot(R_A.z, R_B.z) > 0 && Dot(R_A.x, R_B.x) > 0) continue;
+      Fail(closure->source, fmt::format("closures.{}", closure->name),
+           "frames a and b half a turn apart", "frames of the same orientation",
+           "give start values nearer to it");
+    }
   }
 
   void FailIfOpen(const mechanism::Assembly& assembly, const char* unit) const {
@@ -629,6 +697,11 @@ class Maker {
   std::vector<LinkInertia> inertias_;
   std::vector<const JointDescription*> descriptions_;  // of mechanism_.joints
   std::vector<const Source*> row_sources_;
+  struct Alignment {
+    const ClosureDescription* closure = nullptr;
+    mechanism::Frame a, b;
+  };
+  std::vector<Alignment> aligned_;  // closures that leave no turn
   std::vector<char> held_q_, held_v_;
 };
 

@@ -28,7 +28,7 @@ struct Mechanism {
   };
 
   mechanism::System system;
-  std::vector<double> start;  ///< y = (q, v, states): the start values given, not yet assembled
+  std::vector<double> start;       ///< y = (q, v, states), assembled
   std::vector<JointPlace> joints;  ///< movable ones, in the order of their coordinates
   std::vector<RowPlace> rows;
   std::map<std::string, mechanism::Frame, std::less<>> bodies;  ///< body frames, "world" among them

@@ -218,6 +218,7 @@ void CompileElimination(Model& model, std::span<const double> q, const CutRule& 
   std::mt19937_64 random(20110129);
   std::normal_distribution<double> normal;
   Workspace<double> w(model);
+  std::fill(w.active.begin(), w.active.end(), 1.0);
   for (const auto& [i, j] : entries) {
     if (i != j) samples.entries.push_back({i, j, {}});
   }
@@ -264,8 +265,12 @@ void CompileElimination(Model& model, std::span<const double> q, const CutRule& 
   model.pattern = math::SparseLdltPattern(plan.order, ListEntries(model));
   for (int k = 0; k < n; ++k) {
     const int unknown = plan.order[k], row = unknown - model.coordinates;
-    const bool out = row >= 0 && row < model.rows && model.redundant[row];
-    model.pivot_limits[k] = out ? -0.5 : plan.pivot_limits[k] / (scale[unknown] * scale[unknown]);
+    const bool of_row = row >= 0 && row < model.rows;
+    model.pivot_limits[k] = plan.pivot_limits[k] / (scale[unknown] * scale[unknown]);
+    // a row that is out has the pivot -1
+    if (of_row && model.redundant[row]) model.pivot_limits[k] = -0.5;
+    if (of_row && model.switching[row])
+      model.pivot_limits[k] = std::max(model.pivot_limits[k], -0.5);
   }
   SetSlots(model);
 }

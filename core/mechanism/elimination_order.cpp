@@ -58,12 +58,14 @@ class Elimination {
     rows_[k].clear();
   }
 
-  void Eliminate(int k) {
+  /// @param out_at_times k may be out of use: what it links counts, not what it changes. Rows that
+  /// depend on each other may then all have their place, as long as they are never used together.
+  void Eliminate(int k, bool out_at_times) {
     const Row pivot_row = rows_[k];
     Remove(k);
     for (const auto& [i, value] : pivot_row) {
-      SampleValues l;
-      for (int s = 0; s < kSamples; ++s) l[s] = value[s] / diagonal_[k][s];
+      SampleValues l{};
+      for (int s = 0; s < kSamples && !out_at_times; ++s) l[s] = value[s] / diagonal_[k][s];
       for (int s = 0; s < kSamples; ++s) diagonal_[i][s] -= l[s] * value[s];
       Subtract(i, l, pivot_row);
     }
@@ -238,7 +240,7 @@ EliminationOrder ChooseEliminationOrder(const SampledMatrix& samples) {
     result.order.push_back(best);
     result.pivot_limits.push_back((best < coordinates ? 1 : -1) * kRunTimeShare * smallest);
     neighbours.push_back(work.ListNeighbours(best));
-    work.Eliminate(best);
+    work.Eliminate(best, samples.last[best]);
   }
   if (!result.order.empty()) SortDepthFirst(neighbours, result);
   for (int k = 0; k < n; ++k) {

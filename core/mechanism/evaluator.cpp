@@ -35,13 +35,26 @@ Evaluator::Evaluator(const System& system)
       correction_(system.model.velocities),
       none_(system.model.rows),
       nearest_(system.size()),
-      modes_before_(system.friction.size()),
-      mode_rate_(system.size()) {
+      mode_rate_(system.size()),
+      held_(system.friction.size()),
+      held_force_(system.friction.size()),
+      normal_now_(system.friction.size()),
+      normal_base_(system.friction.size()),
+      normal_mismatch_(static_cast<int>(system.friction.size())),
+      normal_jacobian_(normal_mismatch_.size(), normal_mismatch_.size()),
+      normal_lu_(normal_mismatch_.size()),
+      box_(static_cast<int>(system.friction.size())),
+      moves_(system.friction.size()),
+      candidates_(system.friction.size()) {
   for (const Friction& friction : system.friction) {
     size_t index = 0;
     while (system.model.linear[index].row != friction.row) ++index;
     friction_row_.push_back(static_cast<int>(index));
+    of_joints_ |= friction.normal_link != 0;
+    depends_on_normals_ |= friction.static_coefficient > 0;
   }
+  at_rest_.reserve(system.friction.size());
+  ReleaseFriction();
 }
 
 void Evaluator::UpdateDrives(double time) {
@@ -135,177 +148,12 @@ void Evaluator::ThrowIfNotFinite(double time, std::span<const double> y, std::sp
   }
 }
 
-const LinearRow& Evaluator::GetRow(const Friction& friction) const {
-  return system_.model.linear[friction_row_[&friction - system_.friction.data()]];
-}
-
-double Evaluator::CalcSlip(int f, std::span<const double> y) const {
-  const LinearRow& row = GetRow(system_.friction[f]);
-  double slip = -drive_rate_[row.row];
-  for (const LinearRow::Term& term : row.terms) {
-    slip += term.factor * y[system_.model.positions + term.v];
-  }
-  return slip;
-}
-
-double Evaluator::CalcStaticLimit(const Friction& friction, double normal) const {
-  return friction.static_force + friction.static_coefficient * normal;
-}
-
-double Evaluator::CalcKineticLimit(const Friction& friction, double normal, double slip) const {
-  const double kinetic = friction.kinetic_force + friction.kinetic_coefficient * normal;
-  if (friction.stribeck == Friction::Stribeck::kNone) return kinetic;
-  const double x = std::abs(slip) / friction.stribeck_speed;
-  const double share =
-      friction.stribeck == Friction::Stribeck::kExponential ? std::exp(-x) : 1 / (1 + x);
-  return kinetic + (CalcStaticLimit(friction, normal) - kinetic) * share;
-}
-
-double Evaluator::CalcNormalForce(const Friction& friction) {
-  double normal = friction.preload;
-  if (!friction.normal_rows.empty()) {
-    double square = 0;
-    for (int r : friction.normal_rows) square += reaction_[r] * reaction_[r];
-    normal += std::sqrt(square);
-  }
-  if (friction.normal_link != 0) {
-    CalcJointWrenches();
-    const Link& link = system_.model.links[friction.normal_link];
-    Vector3<double> force = joint_[friction.normal_link].f;
-    if (link.kind == JointKind::kPrismatic) {
-      const Vector3<double>& axis = w_.axes[link.v].v;
-      force -= Dot(axis, force) * axis;
-    }
-    normal += CalcNorm(force);
-  }
-  return normal;
-}
-
-// Accelerations with the friction forces of the present modes. Where a limit depends on a normal
-// force, which depends on the friction force, both are iterated to agreement.
-void Evaluator::SolveWithFriction() {
-  constexpr int kIterations = 50;
-  const Model& model = system_.model;
-  if (modes_.empty() || friction_released_) {
-    std::copy(w_.f.begin(), w_.f.end(), applied_.begin());
-    SolveAccelerations(model, drive_acceleration_, w_, acceleration_, reaction_);
-    return;
-  }
-  std::copy(w_.f.begin(), w_.f.end(), applied_.begin());
-  std::copy(w_.generalised.begin(), w_.generalised.end(), applied_generalised_.begin());
-  for (int iteration = 0; iteration < kIterations; ++iteration) {
-    std::copy(applied_.begin(), applied_.end(), w_.f.begin());
-    std::copy(applied_generalised_.begin(), applied_generalised_.end(), w_.generalised.begin());
-    for (size_t f = 0; f < modes_.size(); ++f) {
-      if (modes_[f] == 0) continue;
-      const Friction& friction = system_.friction[f];
-      const double force = -modes_[f] * CalcKineticLimit(friction, normal_[f], slip_[f]);
-      for (const LinearRow::Term& term : GetRow(friction).terms) {
-        w_.generalised[term.v] += term.factor * force;
-      }
-    }
-    SolveAccelerations(model, drive_acceleration_, w_, acceleration_, reaction_);
-    bool agrees = true;
-    for (size_t f = 0; f < modes_.size(); ++f) {
-      const double normal = CalcNormalForce(system_.friction[f]);
-      agrees &= std::abs(normal - normal_[f]) <= 1e-13 * std::abs(normal);
-      normal_[f] = normal;
-    }
-    if (!agrees) continue;
-    for (size_t f = 0; f < modes_.size(); ++f) {
-      if (modes_[f] == 0) continue;
-      const Friction& friction = system_.friction[f];
-      reaction_[friction.row] = -modes_[f] * CalcKineticLimit(friction, normal_[f], slip_[f]);
-    }
-    return;
-  }
-  throw std::runtime_error(
-      "dry friction and the normal force it depends on do not agree (a jam): the friction "
-      "coefficient "
-      "is too large for the geometry");
-}
-
-void Evaluator::SetMode(int f, int mode) {
-  modes_[f] = mode;
-  w_.active[system_.friction[f].row] = mode == 0 ? 1 : 0;
-}
-
-void Evaluator::ReleaseFriction() {
-  for (size_t f = 0; f < modes_.size(); ++f) SetMode(static_cast<int>(f), 1);
-  friction_released_ = true;
-}
-
-// A friction element that sticks although its row depends on constraints that always act; -1: none.
-int Evaluator::FindForcedRow() const {
-  for (size_t f = 0; f < modes_.size(); ++f) {
-    if (modes_[f] == 0 && system_.model.redundant[system_.friction[f].row]) {
-      return static_cast<int>(f);
-    }
-  }
-  return -1;
-}
-
-bool Evaluator::UpdateModes(double time, std::span<const double> y, double still) {
-  const int count = static_cast<int>(modes_.size());
-  if (count == 0) return false;
-  friction_released_ = false;
-  std::copy(modes_.begin(), modes_.end(), modes_before_.begin());
-  UpdateDrives(time);
-  for (int f = 0; f < count; ++f) {
-    const double slip = CalcSlip(f, y);
-    SetMode(f, slip > still ? 1 : slip < -still ? -1 : 0);
-  }
-  // Release the element that is most beyond its limit, one at a time: its neighbours may hold once
-  // it has given way.
-  for (int released = 0; released <= count; ++released) {
-    try {
-      CalcRates(time, y, mode_rate_);
-    } catch (const std::runtime_error&) {
-      // A row that other constraints move cannot stick: at a turning point it slides on, the way
-      // it is accelerated.
-      const int f = FindForcedRow();
-      if (f < 0) throw;
-      SetMode(f, 1);
-      CalcRates(time, y, mode_rate_);
-      double acceleration = -drive_acceleration_[system_.friction[f].row];
-      for (const LinearRow::Term& term : GetRow(system_.friction[f]).terms) {
-        acceleration += term.factor * acceleration_[term.v];
-      }
-      SetMode(f, acceleration < 0 ? -1 : 1);
-      continue;
-    }
-    int worst = -1;
-    double largest = 1;
-    for (int f = 0; f < count; ++f) {
-      if (modes_[f] != 0) continue;
-      const Friction& friction = system_.friction[f];
-      const double share =
-          std::abs(reaction_[friction.row]) / CalcStaticLimit(friction, normal_[f]);
-      if (share > largest) {
-        largest = share;
-        worst = f;
-      }
-    }
-    if (worst < 0) break;
-    SetMode(worst, reaction_[system_.friction[worst].row] > 0 ? -1 : 1);
-  }
-  return modes_ != modes_before_;
-}
-
-void Evaluator::CalcSwitches(std::span<const double> y, std::span<double> switches) const {
-  for (size_t f = 0; f < modes_.size(); ++f) {
-    const Friction& friction = system_.friction[f];
-    switches[f] = modes_[f] == 0
-                      ? CalcStaticLimit(friction, normal_[f]) - std::abs(reaction_[friction.row])
-                      : modes_[f] * CalcSlip(static_cast<int>(f), y);
-  }
-}
-
 std::span<const Wrench<double>> Evaluator::CalcJointWrenches() {
   const Model& model = system_.model;
   const int links = static_cast<int>(model.links.size());
   link_acceleration_[0] = w_.A[0];
   joint_[0] = {};
+  largest_force_ = 0;
   for (int l = 1; l < links; ++l) {
     const Link& link = model.links[l];
     // A[l] - A[parent] is what the link's own motion adds at zero joint accelerations
@@ -315,10 +163,13 @@ std::span<const Wrench<double>> Evaluator::CalcJointWrenches() {
     }
     link_acceleration_[l] = a;
     joint_[l] = Wrench<double>{} - applied_[l];
+    largest_force_ = std::max(largest_force_, CalcNorm(applied_[l].f));
     if (link.mass == 0) continue;
     const auto I =
         math::MakeInertia(link.mass, link.centre, link.central_inertia, w_.R[l], w_.p[l]);
-    joint_[l] = joint_[l] + I * a + Cross(w_.V[l], I * w_.V[l]);
+    const Wrench<double> inertial = I * a + Cross(w_.V[l], I * w_.V[l]);
+    largest_force_ = std::max(largest_force_, CalcNorm(inertial.f));
+    joint_[l] = joint_[l] + inertial;
   }
   const auto react = [&](int a, int b, int row) {
     joint_[a] = joint_[a] - reaction_[row] * w_.W[row];
@@ -393,7 +244,7 @@ double Evaluator::CalcVelocityResiduals(const double* v) {
     for (const LinearRow::Term& term : row.terms) residual_[row.row] += term.factor * v[term.v];
   }
   for (size_t f = 0; f < modes_.size(); ++f) {
-    if (modes_[f] != 0) residual_[system_.friction[f].row] = 0;  // it slides
+    if (!held_[f]) residual_[system_.friction[f].row] = 0;
   }
   double largest = 0;
   for (double x : residual_) largest = std::max(largest, std::abs(x));
@@ -431,33 +282,44 @@ void Evaluator::SolveForCorrection() {
 void Evaluator::Project(double time, std::span<double> y, double position_tolerance,
                         double velocity_tolerance) {
   const Model& model = system_.model;
+  const std::span<double> q = y.first(model.positions), v = y.subspan(q.size(), model.velocities);
+  NormaliseQuaternions(model, q);
+  if (model.rows == 0) return;
+  UpdateKinematics(time, y);
+  // Friction that sticks has no position to keep; it must not stand in the way of the closures.
+  SetHeldRows(0);
+  try {
+    ProjectPositions(time, y, position_tolerance);
+  } catch (const std::runtime_error&) {
+    SetHeldRows(1);
+    throw;
+  }
+  SetHeldRows(1);
+  if (CalcVelocityResiduals(v.data()) > velocity_tolerance) {
+    SolveForCorrection();
+    for (int i = 0; i < model.velocities; ++i) v[i] += correction_[i];
+  }
+}
+
+void Evaluator::ProjectPositions(double time, std::span<double> y, double tolerance) {
   constexpr int kIterations = 20;
   // Below this nothing is gained. Above it one correction is made even if the tolerance is met:
   // near a singular position, what is left open grows with the inverse square of the distance to
   // it, and would carry the mechanism onto another branch.
   constexpr double kRounding = 1e-15;
-  double* q = y.data();
-  double* v = q + model.positions;
-  NormaliseQuaternions(model, {q, static_cast<size_t>(model.positions)});
-  if (model.rows == 0) return;
-  UpdateKinematics(time, y);
-  for (int iteration = 0;
-       CalcPositionResiduals(q) >
-       (iteration == 0 ? std::min(kRounding, position_tolerance) : position_tolerance);
+  const std::span<double> q = y.first(system_.model.positions);
+  for (int iteration = 0; CalcPositionResiduals(q.data()) >
+                          (iteration == 0 ? std::min(kRounding, tolerance) : tolerance);
        ++iteration) {
     if (iteration == kIterations) {
       const int worst = FindWorstRow();
       throw std::runtime_error(fmt::format(
-          "the constraints cannot be met to {:g} at t = {:g} s: '{}' stays open by {:g}",
-          position_tolerance, time, model.row_names[worst], residual_[worst]));
+          "the constraints cannot be met to {:g} at t = {:g} s: '{}' stays open by {:g}", tolerance,
+          time, system_.model.row_names[worst], residual_[worst]));
     }
     SolveForCorrection();
-    MovePositions(model, correction_, {q, static_cast<size_t>(model.positions)});
+    MovePositions(system_.model, correction_, q);
     UpdateKinematics(time, y);
-  }
-  if (CalcVelocityResiduals(v) > velocity_tolerance) {
-    SolveForCorrection();
-    for (int i = 0; i < model.velocities; ++i) v[i] += correction_[i];
   }
 }
 

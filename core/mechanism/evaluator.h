@@ -1,8 +1,10 @@
 #pragma once
 
+#include <Eigen/LU>
 #include <span>
 #include <vector>
 
+#include "core/mechanism/box_problem.h"
 #include "core/mechanism/system.h"
 
 namespace kingpin::mechanism {
@@ -19,6 +21,9 @@ struct Energy {
 /// nothing is allocated after construction on the regular path.
 class Evaluator {
  public:
+  /// Rate below which an element that sticks along with others counts as still [m/s, rad/s].
+  static constexpr double kCreep = 1e-7;
+
   explicit Evaluator(const System& system);
 
   const System& system() const { return system_; }
@@ -36,16 +41,21 @@ class Evaluator {
   const Workspace<double>& workspace() const { return w_; }
 
   /// Dry friction: what each element of `system().friction` does, 0 sticks, ±1 slides that way.
+  /// Until the first UpdateModes, friction is left out.
   std::span<const int> modes() const { return modes_; }
-  /// Chooses the modes at (time, y): elements with a rate above `still` slide, the others stick if
-  /// their static limits allow, and otherwise begin to slide the way the force drives them.
-  /// @returns whether any mode changed
-  bool UpdateModes(double time, std::span<const double> y, double still);
+  /// Chooses the modes at (time, y): elements with a rate above `still` slide. The others hold each
+  /// other and the mechanism at rest if their static limits allow it, in whatever distribution;
+  /// those that cannot begin to slide the way the forces drive them.
+  ///
+  /// Of elements that stick together, a largest independent set becomes rows with reactions; the
+  /// rest exerts constant forces until the next choice.
+  void UpdateModes(double time, std::span<const double> y, double still);
   /// Takes dry friction out until the next UpdateModes.
   void ReleaseFriction();
   /// Per friction element, a function of the state that is positive as long as its mode holds:
   /// sliding, the rate in the direction of sliding; sticking, the static limit minus the size of
-  /// the reaction. After CalcRates at (time, y).
+  /// its force, and, of one that is not a row, what its rate is below kCreep. After CalcRates at
+  /// (time, y).
   void CalcSwitches(std::span<const double> y, std::span<double> switches) const;
   /// Rate of the row of friction element f [m/s, rad/s].
   double CalcSlip(int f, std::span<const double> y) const;
@@ -82,14 +92,24 @@ class Evaluator {
 
  private:
   void CalcRatesAt(double time, std::span<const double> y, std::span<double> rate);
+  void ProjectPositions(double time, std::span<double> y, double tolerance);
+  // dry friction: friction_modes.cpp
   void SolveWithFriction();
+  void SolveAtNormals(std::span<double> found);
+  bool AgreeWith(std::span<const double> found) const;
+  void ImproveNormals(std::span<double> found);
+  double CalcForce(int f) const;
+  double CalcHighestForce(int f, bool kinetic) const;
+  double CalcSlipAcceleration(const Friction& friction, std::span<const double> acceleration) const;
+  void SetUpBox(double time, std::span<const double> y);
+  void HoldAtRest(double time, std::span<const double> y);
   void ThrowIfNotFinite(double time, std::span<const double> y, std::span<double> rate);
-  double CalcNormalForce(const Friction& friction);
+  double CalcNormalForce(const Friction& friction) const;
   double CalcStaticLimit(const Friction& friction, double normal) const;
   double CalcKineticLimit(const Friction& friction, double normal, double slip) const;
   const LinearRow& GetRow(const Friction& friction) const;
-  void SetMode(int f, int mode);
-  int FindForcedRow() const;
+  void SetMode(int f, int mode, bool held);
+  void SetHeldRows(double active);
   void UpdateKinematics(double time, std::span<const double> y);
   void UpdateDrives(double time);
   double CalcPositionResiduals(const double* q);  // into residual_
@@ -101,16 +121,27 @@ class Evaluator {
   Workspace<double> w_;
   std::vector<double> drive_, drive_rate_, drive_acceleration_;
   std::vector<int> modes_;
-  bool friction_released_ = false;
+  bool friction_released_ = true;
+  bool of_joints_ = false;             // some normal force is that of a joint of the tree
+  bool depends_on_normals_ = false;    // some limit depends on one
   std::vector<double> normal_, slip_;  // per friction element
   std::vector<int> friction_row_;      // index into model.linear
   std::vector<Wrench<double>> applied_, joint_;
   std::vector<double> applied_generalised_;
   std::vector<Motion<double>> link_acceleration_;
   std::vector<double> acceleration_, reaction_, residual_, correction_, none_;
-  std::vector<double> nearest_;  // y moved onto the constraints
-  std::vector<int> modes_before_;
-  std::vector<double> mode_rate_;  // rates while modes are chosen
+  std::vector<double> nearest_;     // y moved onto the constraints
+  double largest_force_ = 0;        // of the sums that joint wrenches are the differences of
+  std::vector<double> mode_rate_;   // rates while modes are chosen
+  std::vector<char> held_;          // per friction element: sticks as a row
+  std::vector<double> held_force_;  // that it exerts if it sticks and is no row
+  std::vector<double> normal_now_, normal_base_;
+  Eigen::VectorXd normal_mismatch_;
+  Eigen::MatrixXd normal_jacobian_;
+  Eigen::PartialPivLU<Eigen::MatrixXd> normal_lu_;
+  BoxProblem box_;
+  std::vector<int> at_rest_;  // friction elements in the box problem
+  std::vector<char> moves_, candidates_;
 };
 
 }  // namespace kingpin::mechanism

@@ -113,6 +113,7 @@ void FindRedundantRows(const std::vector<RowGroup>& groups,
         redundant[rows[best]] = 1;
         continue;
       }
+      if (switching[rows[best]]) continue;  // not there for others to depend on
       for (Eigen::MatrixXd& G : left) {
         if (!(G(best, best) > 1e-15)) continue;  // singular in this sample: others tell
         const Eigen::VectorXd column = G.col(best) / G(best, best);

@@ -75,9 +75,10 @@ struct Friction {
   int row = 0;  ///< a LinearRow that is rate_only
   double static_force = 0, kinetic_force = 0;
   double static_coefficient = 0, kinetic_coefficient = 0;
-  double preload = 0;            ///< part of N
-  std::vector<int> normal_rows;  ///< N counts the norm of their reactions
-  int normal_link = 0;           ///< N counts the force through the joint of this link; 0: of none
+  double preload = 0;  ///< part of N
+  /// N counts the size of each of these forces: the rows of its components.
+  std::vector<std::vector<int>> normal_rows;
+  int normal_link = 0;  ///< N counts the force through the joint of this link; 0: of none
   Stribeck stribeck = Stribeck::kNone;
   double stribeck_speed = 0;
 };

@@ -39,8 +39,8 @@ struct Workspace {
   std::vector<S> k;            ///< the equations, then their factor
   std::vector<S> x;            ///< solution, in elimination order
   std::vector<S> kept_k;       ///< the equations, for when the pivots turn out unsafe
-  std::vector<S>
-      active;  ///< per row: 1, or 0 for a row that is out (redundant, or friction that slides)
+  std::vector<S> active;  ///< per row: 1, or 0 for a row that is out (redundant, or dry friction
+                          ///< unless it sticks)
   bool singular = false;  ///< the last equations were near a singular position, solved densely
 
   /// Where the reference point is in the world [m].
@@ -78,7 +78,7 @@ Workspace<S>::Workspace(const Model& model)
       kept_k(k),
       active(model.rows, S(1.0)) {
   for (int r = 0; r < model.rows; ++r) {
-    if (model.redundant[r]) active[r] = S(0.0);
+    if (model.redundant[r] || model.switching[r]) active[r] = S(0.0);
   }
 #ifndef NDEBUG
   // What is read before it is written shows. The world and the inputs have their values.

@@ -40,8 +40,9 @@ class Run {
   }
 
   void Execute() {
-    evaluator_.Project(0, y_, options_.stepper.projection_tolerance, 0);
+    evaluator_.Project(0, y_, options_.stepper.projection_tolerance, 0);  // friction is out
     evaluator_.UpdateModes(0, y_, kStill);
+    evaluator_.Project(0, y_, options_.stepper.projection_tolerance, 0);
     for (size_t f = 0; f < modes_.size(); ++f) NoteMode(0, f);
     OpenBooks();
     observe_(0, y_, evaluator_);
@@ -88,10 +89,7 @@ class Run {
     }
     evaluator_.CalcRates(end, y_, rate_);
     Book(time, end);
-    if (switched) {
-      ++ledger_.switches;
-      Switch(end);
-    }
+    if (switched) Switch(end);
     return end;
   }
 
@@ -151,9 +149,13 @@ class Run {
     }
     evaluator_.UpdateModes(time, y_, at_rest_ + kStill);
     at_rest_ = 0;
+    bool changed = false;  // or those that stick share the load anew
     for (size_t f = 0; f < modes_.size(); ++f) {
-      if (evaluator_.modes()[f] != modes_[f]) NoteMode(time, f);
+      if (evaluator_.modes()[f] == modes_[f]) continue;
+      NoteMode(time, f);
+      changed = true;
     }
+    ledger_.switches += changed;
     evaluator_.Project(time, y_, options_.stepper.projection_tolerance, 0);
     evaluator_.CalcRates(time, y_, rate_);
     energy_ = evaluator_.CalcEnergy(time, y_);  // powers jump with the forces

@@ -1,7 +1,9 @@
 #include "joints/mechanism_file.h"
 
+#include <array>
 #include <filesystem>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -156,6 +158,77 @@ simulation: {duration: 10 ms, sample_interval: 1 ms}
   expect("C.acceleration", "m/s^2", -0.1 * a);
   expect("gear.reaction", "N m", (0.01 * a - 3) / 2);
   expect("mesh.reaction", "N", 2 * 0.1 * a);
+}
+
+// A bar of 1 kg clamped at its end, its centre 1 m along x or y: the clamp bears 10 N and 10 N m.
+TEST(MechanismFile, TurnReactionsAreTorquesAboutTheirAxes) {
+  for (const auto& [centre, torque] :
+       {std::pair{"[1, 0, 0]", std::array{0.0, -10.0, 0.0}}, {"[0, 1, 0]", {10.0, 0.0, 0.0}}}) {
+    for (const char* type : {"fixed", "revolute"}) {
+      const bool fixed = std::string(type) == "fixed";
+      const MechanismRun run = RunMechanism(ReadMechanismText(fmt::format(R"(kind: mechanism
+gravity: [0, 0, -10]
+bodies: {{bar: {{mass: 1, centre: {}, inertia: [0.1, 0.1, 0.1]}}}}
+joints: {{f: {{type: free, child: bar}}}}
+closures: {{clamp: {{type: {}, a: bar}}}}
+simulation: {{duration: 1 ms, sample_interval: 1 ms}}
+)",
+                                                                          centre, type),
+                                                              "bar.yaml"));
+      const auto expect = [&](const char* row, double value) {
+        for (const io::Signals::Channel& channel : run.signals.channels) {
+          if (channel.name != std::string("clamp.") + row + ".reaction") continue;
+          EXPECT_NEAR(channel.values.front(), value, 1e-12) << row << ' ' << centre << ' ' << type;
+          return;
+        }
+        ADD_FAILURE() << row;
+      };
+      expect("z", 10);
+      expect("turn_x", torque[0]);
+      expect("turn_y", torque[1]);
+      if (fixed) expect("turn_z", torque[2]);
+    }
+  }
+}
+
+std::string GetError(const std::string& text) {
+  try {
+    MakeMechanism(ReadMechanismText("kind: mechanism\n" + text, "m.yaml"));
+  } catch (const io::InputError& error) {
+    return error.what();
+  }
+  return "none";
+}
+
+TEST(MechanismFile, StartsThatCannotBeMeantAreErrors) {
+  const std::string body = "bodies: {b: {mass: 1, inertia: [0.1, 0.1, 0.1]}}\n";
+  for (const char* type : {"fixed", "prismatic"}) {
+    const std::string error = GetError(
+        body +
+        "joints: {j: {type: free, child: b, position: [0, 0, 0, 0.4, 0.9165151389911680, 0, "
+        "0]}}\nclosures: {weld: {type: " +
+        type + ", a: b}}\n");
+    EXPECT_THAT(error,
+                HasSubstr("m.yaml:4: closures.weld: found frames a and b half a turn apart"));
+  }
+  EXPECT_EQ(GetError(body + "joints: {j: {type: free, child: b, position: [0, 0, 0, 0.8, 0.6, 0, "
+                            "0]}}\nclosures: {weld: {type: fixed, a: b}}\n"),
+            "none");
+  for (const char* quaternion : {"0, 0, 0, 0", "2, 0, 0, 0"}) {
+    EXPECT_THAT(
+        GetError(body + "joints: {j: {type: spherical, child: b, position: [" + quaternion +
+                 "]}}\n"),
+        HasSubstr("m.yaml:3: joints.j.position: found a quaternion (w, x, y, z) of length"));
+  }
+  const std::string hinge =
+      body + "joints: {j: {type: revolute, child: b, axis: [0, 1, 0], angle: 60 deg}}\n";
+  EXPECT_THAT(GetError(hinge + "motions: {m: {joint: j, rate: 5}}\n"),
+              HasSubstr("m.yaml:4: motions.m: found a motion that starts at 0, expected 1.0472"));
+  EXPECT_EQ(GetError(hinge + "motions: {m: {joint: j, start: 60 deg, rate: 5}}\n"), "none");
+  EXPECT_THAT(GetError(body + "joints: {j: {type: free, child: b}}\n"
+                              "motions: {m: {joint: j, start: 0.5, rate: 1}}\n"),
+              HasSubstr("m.yaml:4: motions.m: found a motion that starts at 0.5, expected one that "
+                        "starts at 0"));
 }
 
 TEST(MechanismFile, TheExamplesRunAndKeepTheirBooks) {
