@@ -558,7 +558,7 @@ class Maker {
       if (place.name != motion.joint) continue;
       // a quaternion has no coordinates of its own for the row to hold: its rates follow
       row.rate_only = place.positions != place.velocities;
-      CheckStart(motion, key, *descriptions_[j], row.rate_only);
+      if (!row.rate_only) CheckStart(motion, key, *descriptions_[j]);
     }
     row.terms.push_back(
         MakeTerm(motion.source, key, motion.joint, motion.coordinate, 1, row.rate_only));
@@ -569,16 +569,10 @@ class Maker {
 
   // A motion begins where its joint does.
   void CheckStart(const MotionDescription& motion, const std::string& key,
-                  const JointDescription& joint, bool rate_only) const {
+                  const JointDescription& joint) const {
     const double start = motion.motion(0)[0];
-    if (rate_only && start != 0) {
-      Fail(motion.source, key, fmt::format("a motion that starts at {:g}", start),
-           fmt::format("one that starts at 0: joint '{}' turns by a quaternion, its rates follow "
-                       "the motion's",
-                       joint.name));
-    }
     const auto coordinate = static_cast<size_t>(motion.coordinate);
-    if (rate_only || coordinate >= joint.position.size()) return;
+    if (coordinate >= joint.position.size()) return;
     const double given = joint.position[coordinate];
     if (!(std::abs(start - given) > 1e-9 * std::max(1.0, std::abs(given)))) return;
     Fail(motion.source, key, fmt::format("a motion that starts at {:g}", start),

@@ -91,12 +91,14 @@ KINGPIN_INLINE void AssembleConstraints(const Model& model, const S* drive_accel
 /// Whether every pivot kept its sign and stayed away from zero (`Model::pivot_limits`). If not, the
 /// factorisation has lost digits, or the mechanism is in a singular position: SolveAccelerations
 /// then takes a dense way.
-inline bool PivotsAreSafe(const Model& model, const Workspace<double>& w) {
+template <class S>
+bool PivotsAreSafe(const Model& model, const Workspace<S>& w) {
+  using math::Value;
   bool safe = true;
   for (int k = 0; k < model.pattern.unknowns(); ++k) {
     // the factor keeps 1/d: d beyond a limit of its sign is 1/d of that sign and below 1/limit in
     // size
-    const double share = w.k[k] * model.pivot_limits[k];
+    const double share = Value(w.k[k]) * model.pivot_limits[k];
     safe &= share > 0 && share < 1;
   }
   return safe;

@@ -19,7 +19,8 @@ class JacobianEvaluator {
 
   /// @param reactions unless null, the same derivatives of the reactions R, rows x columns; 0 for
   /// rows that are redundant or not active
-  /// @returns whether they are finite; in a singular position, where pivots vanish, they are not
+  /// @returns whether there are any: in a singular position, where rows depend on each other, there
+  /// are none
   bool Calc(double time, std::span<const double> y, std::span<const double> active,
             Eigen::Ref<Eigen::MatrixXd> jacobian, Eigen::MatrixXd* reactions = nullptr);
 
@@ -27,6 +28,10 @@ class JacobianEvaluator {
   int columns() const { return 2 * system_.model.velocities + system_.states; }
 
  private:
+  static constexpr int kLanes = 8;
+  void Assemble(double time, std::span<const double> y, int first);
+  bool SolveDensely();
+
   const System& system_;
   Workspace<Dual8> w_;
   std::vector<Dual8> q_, v_, states_, state_rates_, drive_;

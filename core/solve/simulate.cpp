@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <vector>
 
@@ -79,6 +80,8 @@ class Run {
  private:
   // One step, cut short where friction switches.
   double Step(double time, double limit) {
+    // no method can make a step of a few units in the last place
+    if (limit - time <= 8 * std::numeric_limits<double>::epsilon() * limit) return limit;
     std::copy(y_.begin(), y_.end(), before_.begin());
     std::copy(rate_.begin(), rate_.end(), rate_before_.begin());
     double end = stepper_->Advance(time, limit, y_);

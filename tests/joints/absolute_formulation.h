@@ -472,6 +472,11 @@ class AbsoluteFormulation {
     const auto square = [&](int a, int b) {
       add([&](Row& row) { AddPerpendicular(nullptr, A, B, A.R.col(a), B.R.col(b), row); });
     };
+    // the torques are about x and y of b's frame: z × -y and z × x
+    const auto parallel = [&] {
+      add([&](Row& row) { AddPerpendicular(nullptr, A, B, A.R.col(2), -B.R.col(1), row); });
+      square(2, 0);
+    };
     const auto point = [&] { slide(0), slide(1), slide(2); };
     switch (closure.type) {
       case ClosureType::kSpherical:
@@ -492,25 +497,25 @@ class AbsoluteFormulation {
         });
         break;
       case ClosureType::kParallelAxes:
-        square(2, 0), square(2, 1);
+        parallel();
         break;
       case ClosureType::kPerpendicular:
         square(2, 0);
         break;
       case ClosureType::kRevolute:
-        point(), square(2, 0), square(2, 1);
+        point(), parallel();
         break;
       case ClosureType::kPrismatic:
-        slide(0), slide(1), square(2, 0), square(2, 1), square(0, 1);
+        slide(0), slide(1), parallel(), square(0, 1);
         break;
       case ClosureType::kCylindrical:
-        slide(0), slide(1), square(2, 0), square(2, 1);
+        slide(0), slide(1), parallel();
         break;
       case ClosureType::kUniversal:
         point(), square(2, 0);
         break;
       case ClosureType::kFixed:
-        point(), square(2, 0), square(2, 1), square(0, 1);
+        point(), parallel(), square(0, 1);
         break;
       case ClosureType::kRollingDisc:
         throw std::invalid_argument("rolling discs are not written in this formulation");

@@ -344,7 +344,10 @@ TEST(AbsoluteFormulation, AgreesOnCouplingsAndMotions) {
       d.couplings.push_back(coupling);
     }
     const CouplingDescription::Term driven = random.PickTerm(d);
-    const double s0 = random.MakeNumbers(1)[0], rate = driven.factor;
+    const auto joint = std::find_if(d.joints.begin(), d.joints.end(),
+                                    [&](const auto& j) { return j.name == driven.joint; });
+    const double s0 = joint->position.empty() ? 0 : joint->position.at(driven.coordinate);
+    const double rate = driven.factor;
     MotionDescription motion;
     motion.name = "motion";
     motion.joint = driven.joint;
