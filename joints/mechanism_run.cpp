@@ -210,10 +210,14 @@ void AddSample(double time, std::span<const double> state, const solve::Ledger& 
   put(residuals.velocity);
 }
 
-// A sample that could not be evaluated to its end is none.
-void DropUnfinishedSample(io::Signals& signals) {
+// A sample that could not be evaluated to its end, or to finite numbers, is none.
+void DropUnfinishedSamples(io::Signals& signals) {
   size_t samples = signals.time.size();
-  for (const auto& channel : signals.channels) samples = std::min(samples, channel.values.size());
+  for (const auto& channel : signals.channels) {
+    const auto end = std::find_if_not(channel.values.begin(), channel.values.end(),
+                                      [](double value) { return std::isfinite(value); });
+    samples = std::min(samples, static_cast<size_t>(end - channel.values.begin()));
+  }
   signals.time.resize(samples);
   for (auto& channel : signals.channels) channel.values.resize(samples);
 }
@@ -354,7 +358,7 @@ MechanismRun RunMechanism(const MechanismFile& given, const Proceed& proceed) {
   } catch (const Ended&) {
     run.finished = false;
   } catch (const std::runtime_error& error) {
-    DropUnfinishedSample(run.signals);
+    DropUnfinishedSamples(run.signals);
     if (run.signals.time.empty()) throw io::RunError(error.what());
     run.finished = false;
     run.failure = error.what();
