@@ -48,7 +48,8 @@ TEST_F(Program, AnInputIsNeverReplacedByTheOutput) {
   Write("signals.csv", "time,a\ns,m/s^2\n0,0\n0.1,1\n0.2,0\n");
   Write("weights.csv", "frequency,factor\nHz,1\n1,1\n100,1\n");
   Write("scenario.yaml",
-        fmt::format("kind: scenario\nname: s\nmodel: {{paper_set: {}/paper/set_C.json}}\n", examples));
+        fmt::format("kind: scenario\nname: s\nmodel: {{paper_set: {}/paper/set_C.json}}\n",
+                    examples));
   WriteStudy();
   fs::create_symlink("m.yaml", folder_ / "link.yaml");
   fs::create_hard_link(folder_ / "m.yaml", folder_ / "twin.yaml");
