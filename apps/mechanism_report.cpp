@@ -254,6 +254,10 @@ std::string MakeMechanismReport(const joints::MechanismRun& run) {
   page.AddParagraph(fmt::format(
       "{} s by {}.", report::FormatShort(run.signals.time.empty() ? 0.0 : run.signals.time.back()),
       run.summary["method"].get<std::string>()));
+  if (!run.finished) {
+    page.AddParagraph(run.failure.empty() ? "The run was stopped before its end."
+                                          : "The run ended early: " + run.failure);
+  }
   page.AddHeading(2, "Summary");
   AddSummaryTable(run, page);
   // what belongs to the coordinates shown: rates have the names of velocity coordinates

@@ -5,6 +5,7 @@
 
 #include <fmt/chrono.h>
 
+#include "core/io/error.h"
 #include "core/math/isa.h"
 
 namespace kingpin::apps {
@@ -27,6 +28,22 @@ std::filesystem::path ResultPath(const std::string& verb, const CommonOptions& o
                            : generic ? file.parent_path().filename().string()
                                      : stem;
   return std::filesystem::path("results") / (verb == "study" ? name : name + "_" + verb);
+}
+
+void CheckOutputFile(const CommonOptions& options,
+                     const std::vector<std::filesystem::path>& inputs) {
+  const std::filesystem::path output = options.output;
+  std::error_code error;
+  // a terminal or a pipe may be read and written at once
+  if (!std::filesystem::is_regular_file(output, error)) return;
+  for (const std::filesystem::path& input : inputs) {
+    if (!std::filesystem::equivalent(output, input, error)) continue;
+    throw io::InputError(
+        {.file = "command line",
+         .key = "-o",
+         .found = fmt::format("'{}', which is the input '{}'", output.string(), input.string()),
+         .expected = "a file that is no input, which would be lost"});
+  }
 }
 
 std::filesystem::path SourceRoot() {

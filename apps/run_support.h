@@ -3,6 +3,7 @@
 #include <chrono>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "apps/common_options.h"
 #include "core/io/input_record.h"
@@ -19,6 +20,12 @@ io::ReadOptions MakeReadOptions(const CommonOptions& options);
 /// main job, goes to results/<name>.
 std::filesystem::path ResultPath(const std::string& verb, const CommonOptions& options,
                                  const std::filesystem::path& input);
+
+/// -o as the file that a verb writes must be none of those it has read: it would replace what a
+/// user wrote by what was made of it. Links are followed, hard ones recognised.
+/// Throws io::InputError.
+void CheckOutputFile(const CommonOptions& options,
+                     const std::vector<std::filesystem::path>& inputs);
 
 /// The folder with examples/ and models/: the environment variable KINGPIN_ROOT, or where the
 /// program was built.

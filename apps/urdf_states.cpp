@@ -10,6 +10,7 @@
 
 #include "core/io/error.h"
 #include "core/io/nearest_name.h"
+#include "core/io/utf8.h"
 #include "core/io/yaml_document.h"
 #include "joints/urdf.h"
 
@@ -43,6 +44,7 @@ class Reader {
     result.gravity = {g[0], g[1], g[2]};
     const json& states = top.at("states");
     if (!states.is_array()) Fail("states", Describe(states), "a list of states");
+    if (states.empty()) Fail("states", "an empty list", "at least one state");
     for (std::size_t k = 0; k < states.size(); ++k) {
       result.states.push_back(ReadState(states[k], fmt::format("states[{}]", k)));
     }
@@ -61,6 +63,16 @@ class Reader {
   }
 
   json Parse(const std::string& text) const {
+    const auto line_of = [&text](std::size_t at) {
+      const auto end = text.begin() + static_cast<long>(std::min(at, text.size()));
+      return 1 + static_cast<int>(std::count(text.begin(), end, '\n'));
+    };
+    if (const auto at = io::FindInvalidUtf8(text)) {
+      Fail("",
+           fmt::format("the byte 0x{:02X}, which is no UTF-8",
+                       static_cast<unsigned char>(text[*at])),
+           "a text file in UTF-8", {}, line_of(*at));
+    }
     std::vector<std::set<std::string>> keys;  // of the objects that are open
     const auto watch = [&](int, json::parse_event_t event, json& value) {
       if (event == json::parse_event_t::object_start) keys.emplace_back();
@@ -73,12 +85,11 @@ class Reader {
     try {
       return json::parse(text, watch);
     } catch (const json::parse_error& error) {
-      const auto end = text.begin() + std::min(error.byte, text.size());
       const std::string what = error.what();
       const auto detail = what.find(": ");
       Fail("", detail == std::string::npos ? what : "no JSON: " + what.substr(detail + 2),
            "a JSON file of states", "JSON has no NaN, no infinity and no remarks",
-           1 + static_cast<int>(std::count(text.begin(), end, '\n')));
+           line_of(error.byte));
     } catch (const json::out_of_range&) {
       Fail("", "a number beyond the range of double precision", "finite numbers");
     }

@@ -1,5 +1,6 @@
 #include <filesystem>
 #include <memory>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -32,6 +33,18 @@ std::vector<std::filesystem::path> FindFiles(const std::filesystem::path& path) 
   return files;
 }
 
+// What cannot come to rest is found by trying; that message names no file.
+io::InputRecord Read(const io::InputKinds& kinds, const std::filesystem::path& file,
+                     const io::ReadOptions& options) {
+  try {
+    return kinds.Detect(file).read(file, options);
+  } catch (const io::InputError&) {
+    throw;
+  } catch (const std::runtime_error& error) {
+    throw io::RunError(file.string() + ": " + error.what());
+  }
+}
+
 void RunCheckVerb(const std::string& path, const CommonOptions& options) {
   const io::ReadOptions read_options = MakeReadOptions(options);
   const io::InputKinds kinds = MakeInputKinds();
@@ -39,7 +52,8 @@ void RunCheckVerb(const std::string& path, const CommonOptions& options) {
   std::string text;
   auto list = nlohmann::ordered_json::array();
   for (const std::filesystem::path& file : files) {
-    const io::InputRecord record = kinds.Detect(file).read(file, read_options);
+    const io::InputRecord record = Read(kinds, file, read_options);
+    CheckOutputFile(options, record.files);
     if (options.json) {
       list.push_back(nlohmann::ordered_json::parse(io::FormatRecordAsJson(record)));
     } else {

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/common_options.h"
+#include "apps/run_support.h"
 #include "core/io/csv.h"
 #include "core/io/error.h"
 #include "core/io/json_text.h"
@@ -155,6 +156,7 @@ void AddVerbMetrics(CLI::App& app, CommonOptions& common) {
   verb->add_option("--tie-rod-force", options->tie_rod_force, "Tie-rod force channel [N]");
   AddOutputOption(*verb, common, "File instead of standard output");
   verb->callback([options, &common] {
+    CheckOutputFile(common, {options->file, options->weighting});
     const std::string text = CalcMetrics(*options);
     if (!common.output.empty()) {
       io::WriteFileAtomically(common.output, text);

@@ -2,12 +2,14 @@
 #include <string>
 
 #include <CLI/CLI.hpp>
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "apps/common_options.h"
 #include "apps/input_kinds.h"
 #include "apps/mechanism_report.h"
 #include "apps/run_support.h"
+#include "core/io/error.h"
 #include "core/io/json_text.h"
 #include "joints/mechanism_run.h"
 #include "optimisation/study/scenario_modes.h"
@@ -27,10 +29,21 @@ void Print(const Result& result, const CommonOptions& options) {
   }
 }
 
+joints::MechanismModes CalcModes(const std::string& file, const joints::MechanismFile& mechanism) {
+  try {
+    return joints::CalcMechanismModes(mechanism);
+  } catch (const io::RunError& error) {
+    throw io::RunError(fmt::format("{}: {}", file, error.what()));
+  }
+}
+
 void RunModesVerb(const std::string& file, bool held, const CommonOptions& options) {
+  io::InputRecord record;
   if (IsMechanismFile(file)) {
-    const joints::MechanismModes modes =
-        joints::CalcMechanismModes(joints::ReadMechanismFile(file, MakeReadOptions(options)));
+    const joints::MechanismFile mechanism =
+        joints::ReadMechanismFile(file, MakeReadOptions(options), &record);
+    CheckOutputFile(options, record.files);
+    const joints::MechanismModes modes = CalcModes(file, mechanism);
     if (options.output.ends_with(".html")) {
       io::WriteFileAtomically(options.output, MakeModesReport(modes));
       CommonOptions rest = options;
@@ -40,8 +53,9 @@ void RunModesVerb(const std::string& file, bool held, const CommonOptions& optio
       Print(modes, options);
     }
   } else {
-    Print(study::CalcScenarioModes(study::ReadScenario(file, MakeReadOptions(options)), held),
-          options);
+    const study::Scenario scenario = study::ReadScenario(file, MakeReadOptions(options), &record);
+    CheckOutputFile(options, record.files);
+    Print(study::CalcScenarioModes(scenario, held), options);
   }
 }
 

@@ -42,6 +42,7 @@ void RunOptimiseVerb(const std::string& file, const std::string& case_name,
   CatchInterrupt();
   io::InputRecord record;
   study::StudyDefinition definition = study::ReadStudy(file, MakeReadOptions(options), &record);
+  CheckOutputFile(options, record.files);
   if (options.seed) definition.seed = *options.seed;
   const study::Case& c = FindCase(definition, case_name, file);
   CheckStage(c, stage, file);
@@ -69,9 +70,10 @@ void RunOptimiseVerb(const std::string& file, const std::string& case_name,
     io::WriteStandardOutput(study::FormatSummary(result, {}));
   }
   if (result.cancelled) {
-    throw io::RunError(options.output.empty()
-                           ? std::string("stopped by Ctrl-C")
-                           : "stopped by Ctrl-C; what was finished is kept in " + options.output);
+    throw io::RunError(FormatInterrupt() +
+                       (options.output.empty()
+                            ? std::string()
+                            : "; what was finished is kept in " + options.output));
   }
 }
 

@@ -1,14 +1,19 @@
+#include <cstdint>
 #include <memory>
 #include <string>
 
 #include <CLI/CLI.hpp>
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "apps/common_options.h"
 #include "apps/input_kinds.h"
+#include "apps/interrupt.h"
 #include "apps/mechanism_report.h"
 #include "apps/run_support.h"
+#include "core/io/error.h"
 #include "core/io/json_text.h"
+#include "core/io/progress.h"
 #include "joints/mechanism_run.h"
 #include "optimisation/study/run_scenario.h"
 #include "optimisation/study/study_schema.h"
@@ -41,12 +46,53 @@ void RunAndWrite(const std::string& file, const CommonOptions& options, const Re
   }
 }
 
+// With progress, and stopped by Ctrl-C at a sample.
+joints::MechanismRun RunWatched(const std::string& file, const joints::MechanismFile& mechanism,
+                                const CommonOptions& options) {
+  constexpr double kSteps = 1000;
+  const double duration = mechanism.simulation.duration;
+  io::Progress progress(io::IsProgressWanted(options.quiet), 2);
+  progress.Start(mechanism.description.name, static_cast<std::uint64_t>(kSteps));
+  std::uint64_t shown = 0;
+  const auto proceed = [&](double time) {
+    const auto step = static_cast<std::uint64_t>(kSteps * time / duration);
+    if (step > shown) {
+      progress.Note(fmt::format("{:.4g} s of {:g} s", time, duration));
+      progress.Advance(step - shown);
+      shown = step;
+    }
+    return !WasInterrupted();
+  };
+  try {
+    return joints::RunMechanism(mechanism, proceed);
+  } catch (const io::RunError& error) {
+    throw io::RunError(fmt::format("{}: {}", file, error.what()));
+  }
+}
+
+void SimulateMechanism(const std::string& file, const CommonOptions& options) {
+  CatchInterrupt();
+  std::string ended;  // why, if early
+  const auto run = [&](const joints::MechanismFile& mechanism) {
+    return RunWatched(file, mechanism, options);
+  };
+  const auto add_report = [&](const joints::MechanismRun& result, io::ResultDirectory& results) {
+    results.WriteText("report.html", MakeMechanismReport(result));
+    if (result.finished) return;
+    const double time = result.signals.time.back();
+    ended = fmt::format("{}: {}; what was finished is kept in {}", file,
+                        result.failure.empty()
+                            ? fmt::format("{} at t = {:g} s", FormatInterrupt(), time)
+                            : fmt::format("failed after t = {:g} s: {}", time, result.failure),
+                        results.target().string());
+  };
+  RunAndWrite(file, options, joints::ReadMechanismFile, run, add_report);
+  if (!ended.empty()) throw io::RunError(ended);
+}
+
 void RunSimulateVerb(const std::string& file, const CommonOptions& options) {
   if (IsMechanismFile(file)) {
-    RunAndWrite(file, options, joints::ReadMechanismFile, joints::RunMechanism,
-                [](const joints::MechanismRun& run, io::ResultDirectory& results) {
-                  results.WriteText("report.html", MakeMechanismReport(run));
-                });
+    SimulateMechanism(file, options);
   } else {
     RunAndWrite(file, options, study::ReadScenario, study::RunScenario,
                 [](const auto&, io::ResultDirectory&) {});

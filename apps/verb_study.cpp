@@ -101,7 +101,7 @@ void RunStudyVerb(const std::string& file, const CommonOptions& options) {
                             "\nReport: " + (results.target() / "report.html").string() + "\n");
   }
   if (result.cancelled)
-    throw io::RunError("stopped by Ctrl-C; what was finished is kept in " +
+    throw io::RunError(FormatInterrupt() + "; what was finished is kept in " +
                        results.target().string());
 }
 

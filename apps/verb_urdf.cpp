@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "apps/common_options.h"
+#include "apps/run_support.h"
 #include "apps/urdf_states.h"
 #include "core/io/error.h"
 #include "core/io/json_text.h"
@@ -188,6 +189,7 @@ std::string Describe(const joints::Urdf& urdf, const joints::Mechanism& mechanis
 }
 
 void RunUrdfVerb(const UrdfOptions& options, const CommonOptions& common) {
+  CheckOutputFile(common, {options.file, options.states});
   joints::Urdf urdf = joints::ReadUrdf(
       options.file, options.floating_base ? joints::UrdfBase::kFloating : joints::UrdfBase::kFixed);
   // the tree by itself: every joint a coordinate of its own

@@ -37,6 +37,13 @@ class Places {
     }
     return {file_, 0};
   }
+  // Written in the file or on the command line, not a default.
+  bool IsGiven(const std::string& path) const {
+    return std::any_of(
+        record_.values.begin(), record_.values.end(), [&path](const io::ValueRecord& value) {
+          return value.path == path && value.origin.kind != io::ValueOrigin::Kind::kDefault;
+        });
+  }
 
  private:
   const io::InputRecord& record_;
@@ -257,9 +264,25 @@ class Translator {
       joint.second_axis = MakeVector(j.second_axis);
       joint.pitch = j.pitch;
       joint.source = places_.Find("joints." + name);
+      CheckAxes("joints." + name, j.type);
       SetStart(j, joint.source, "joints." + name, joint);
       description_.joints.push_back(std::move(joint));
     }
+  }
+
+  // What a joint of this type has no use for is a mistake about its type.
+  void CheckAxes(const std::string& path, JointType type) const {
+    const bool has_axis =
+        type != JointType::kFixed && type != JointType::kSpherical && type != JointType::kFree;
+    const auto check = [&](const char* key, bool has, const char* joints) {
+      const std::string whole = fmt::format("{}.{}", path, key);
+      if (has || !places_.IsGiven(whole)) return;
+      Fail(places_.Find(whole), whole, "a key that a joint of this type does not have",
+           fmt::format("it with {} only", joints));
+    };
+    check("axis", has_axis, "joints that have an axis");
+    check("second_axis", type == JointType::kUniversal, "universal joints");
+    check("pitch", type == JointType::kScrew, "screw joints");
   }
 
   void SetStarts() {

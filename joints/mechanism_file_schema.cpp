@@ -6,6 +6,9 @@ namespace kingpin::joints::file {
 
 namespace {
 
+// Rows of signals.csv that a machine can be asked to hold.
+constexpr double kMostSamples = 1e7;
+
 const io::Schema<Body>& BodySchema() {
   static const io::Schema<Body> schema = [] {
     io::Schema<Body> s("body", "A rigid body.");
@@ -122,7 +125,10 @@ const io::Schema<Coupling>& CouplingSchema() {
     io::Schema<Term> term("term", "One coordinate of a coupling.");
     term.Text("joint", &Term::joint, "a joint that moves");
     term.Integer("coordinate", &Term::coordinate, "of a joint with several, from 0").Default("0");
-    term.Quantity("factor", &Term::factor, "1", "in SI: 1, 1/m or m").Default("1");
+    term.Quantity("factor", &Term::factor, "1", "in SI: 1, 1/m or m; not 0").Default("1");
+    term.Check([](const Term& t, io::Check& check) {
+      if (t.factor == 0) check.Fail("factor", "0", "a factor that couples the coordinate");
+    });
     io::Schema<Coupling> s("coupling",
                            "The sum of factor times coordinate stays what it is: gear, rack and "
                            "pinion, differential.");
@@ -200,6 +206,20 @@ const io::Schema<FrictionEntry>& FrictionSchema() {
     s.Quantity("counterpart_speed", &FrictionEntry::counterpart_speed, "1",
                "of a belt or disc that it rubs against [m/s, rad/s]")
         .Default("0");
+    s.Check([](const FrictionEntry& f, io::Check& check) {
+      const bool loaded = f.preload > 0 || f.from_joint || !f.from_closures.empty();
+      const bool force = f.static_force > 0 || f.kinetic_force > 0;
+      const bool coefficient = f.static_coefficient > 0 || f.kinetic_coefficient > 0;
+      if (force || (coefficient && loaded)) return;
+      if (coefficient) {
+        check.Fail("", "coefficients without a normal force",
+                   "preload, from_joint or from_closures beside them");
+      } else {
+        check.Fail("", "dry friction whose limits are all 0",
+                   "static_force and kinetic_force, or static_coefficient and "
+                   "kinetic_coefficient");
+      }
+    });
     return s;
   }();
   return schema;
@@ -381,6 +401,13 @@ const io::Schema<Simulation>& SimulationSchema() {
         .Default("1e-10");
     s.Boolean("start_at_rest", &Simulation::start_at_rest, "find the equilibrium first")
         .Default("false");
+    s.Check([](const Simulation& simulation, io::Check& check) {
+      if (simulation.duration / simulation.sample_interval <= kMostSamples) return;
+      check.Fail(
+          "sample_interval", fmt::format("{:g} s", simulation.sample_interval),
+          fmt::format("at least {:g} s: no more than {:g} samples of a run of {:g} s",
+                      simulation.duration / kMostSamples, kMostSamples, simulation.duration));
+    });
     return s;
   }();
   return schema;

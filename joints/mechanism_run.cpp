@@ -155,32 +155,10 @@ ShownNames FindShownNames(const MechanismFile& file, const Mechanism& mechanism)
                  "closure, coupling, motion, friction or row")};
 }
 
-}  // namespace
-
-void CheckNames(const MechanismFile& file, const Mechanism& mechanism) {
-  FindShownNames(file, mechanism);
-  CheckResponses(file, mechanism);
-  CheckTrim(file, mechanism);
-}
-
-MechanismRun RunMechanism(const MechanismFile& given) {
-  MechanismFile file = given;
-  Mechanism mechanism;
-  std::vector<TrimmedQuantity> trimmed;
-  try {
-    trimmed = Trim(file);
-    mechanism = MakeMechanism(file);
-  } catch (const io::InputError&) {
-    throw;
-  } catch (const std::runtime_error& error) {
-    throw io::RunError(error.what());
-  }
+std::vector<io::Signals::Channel> MakeChannels(const Mechanism& mechanism) {
   const mechanism::Model& model = mechanism.system.model;
-  CheckNames(file, mechanism);
   const auto positions = ListPositionNames(mechanism), velocities = ListVelocityNames(mechanism);
-
-  MechanismRun run;
-  std::vector<io::Signals::Channel>& channels = run.signals.channels;
+  std::vector<io::Signals::Channel> channels;
   const auto add = [&](std::string name, const std::string& unit) {
     channels.push_back({std::move(name), unit, unit, {}});
   };
@@ -200,63 +178,71 @@ MechanismRun RunMechanism(const MechanismFile& given) {
   }
   add("residual.position", "1");
   add("residual.velocity", "1");
-  run.positions = model.positions;
-  run.velocities = model.velocities;
-  run.rows = model.rows;
-  const ShownNames shown = FindShownNames(file, mechanism);
-  run.shown_coordinates = shown.coordinates;
-  run.shown_reactions = shown.reactions;
+  return channels;
+}
 
-  std::vector<double> y = mechanism.start;
-  solve::Ledger ledger;
-  StopWatch stops(file, mechanism);
-  mechanism::Workspace<double> w(model);
-  const auto observe = [&](double time, std::span<const double> state,
-                           mechanism::Evaluator& evaluator) {
-    run.signals.time.push_back(time);
-    size_t channel = 0;
-    const auto put = [&](double value) { channels[channel++].values.push_back(value); };
-    for (int i = 0; i < model.positions + model.velocities; ++i) put(state[i]);
-    for (double a : evaluator.accelerations()) put(a);
-    for (double reaction : evaluator.reactions()) put(reaction);
-    const mechanism::Energy energy = evaluator.CalcEnergy(time, state);
-    put(energy.kinetic);
-    put(energy.potential);
-    put(energy.kinetic + energy.potential);
-    put(ledger.dissipated);
-    put(ledger.supplied);
-    put(energy.kinetic + energy.potential - ledger.energy_start - ledger.supplied +
-        ledger.dissipated);
-    const math::Wrench<double> momentum = evaluator.CalcMomentum();
-    const math::Wrench<double> error = momentum - ledger.momentum_start - ledger.impulse;
-    const auto put_vector = [&](const math::Vector3<double>& v, const math::Vector3<double>& off) {
-      for (double value : {v.x, v.y, v.z, CalcNorm(off)}) put(value);
-    };
-    put_vector(momentum.f, error.f);
-    put_vector(momentum.t, error.t);
-    const auto residuals = evaluator.CalcResiduals(time, state);
-    put(residuals.position);
-    put(residuals.velocity);
-    if (!stops.empty()) {
-      mechanism::UpdatePositions(model, state.data(), w);
-      mechanism::UpdateVelocities(model, state.data() + model.positions, w);
-      stops.Look({model, time, state.data(), state.data() + model.positions, nullptr, nullptr, w});
-    }
+void AddSample(double time, std::span<const double> state, const solve::Ledger& ledger,
+               mechanism::Evaluator& evaluator, io::Signals& signals) {
+  const mechanism::Model& model = evaluator.system().model;
+  signals.time.push_back(time);
+  size_t channel = 0;
+  const auto put = [&](double value) { signals.channels[channel++].values.push_back(value); };
+  for (int i = 0; i < model.positions + model.velocities; ++i) put(state[i]);
+  for (double a : evaluator.accelerations()) put(a);
+  for (double reaction : evaluator.reactions()) put(reaction);
+  const mechanism::Energy energy = evaluator.CalcEnergy(time, state);
+  put(energy.kinetic);
+  put(energy.potential);
+  put(energy.kinetic + energy.potential);
+  put(ledger.dissipated);
+  put(ledger.supplied);
+  put(energy.kinetic + energy.potential - ledger.energy_start - ledger.supplied +
+      ledger.dissipated);
+  const math::Wrench<double> momentum = evaluator.CalcMomentum();
+  const math::Wrench<double> error = momentum - ledger.momentum_start - ledger.impulse;
+  const auto put_vector = [&](const math::Vector3<double>& v, const math::Vector3<double>& off) {
+    for (double value : {v.x, v.y, v.z, CalcNorm(off)}) put(value);
   };
-  try {
-    solve::Simulate(mechanism.system, file.simulation, y, observe, ledger);
-  } catch (const std::runtime_error& error) {
-    throw io::RunError(error.what());
-  }
+  put_vector(momentum.f, error.f);
+  put_vector(momentum.t, error.t);
+  const auto residuals = evaluator.CalcResiduals(time, state);
+  put(residuals.position);
+  put(residuals.velocity);
+}
 
-  for (const solve::FrictionEvent& event : ledger.events) {
-    const std::string& name = model.row_names[mechanism.system.friction[event.element].row];
-    run.friction_changes.push_back({event.time, name, event.mode});
+// A sample that could not be evaluated to its end, or to finite numbers, is none.
+void DropUnfinishedSamples(io::Signals& signals) {
+  size_t samples = signals.time.size();
+  for (const auto& channel : signals.channels) {
+    const auto end = std::find_if_not(channel.values.begin(), channel.values.end(),
+                                      [](double value) { return std::isfinite(value); });
+    samples = std::min(samples, static_cast<size_t>(end - channel.values.begin()));
   }
+  signals.time.resize(samples);
+  for (auto& channel : signals.channels) channel.values.resize(samples);
+}
+
+// Thrown where the user ends a run.
+struct Ended {};
+
+nlohmann::ordered_json MakeEnd(const Mechanism& mechanism, const io::Signals& signals) {
+  nlohmann::ordered_json end;
+  for (int i = 0; i < mechanism.system.model.positions; ++i) {
+    end[signals.channels[i].name] = signals.channels[i].values.back();
+  }
+  return end;
+}
+
+void AddSummary(const MechanismFile& file, const Mechanism& mechanism, const solve::Ledger& ledger,
+                const std::vector<TrimmedQuantity>& trimmed, MechanismRun& run) {
+  const mechanism::Model& model = mechanism.system.model;
   const int freedom = CountFreedom(mechanism);
   const std::vector<std::string> redundant = ListRedundantRows(model);
   run.summary["name"] = mechanism.system.name;
   run.summary["method"] = GetMethodName(file.simulation.stepper.method);
+  run.summary["finished"] = run.finished;
+  if (!run.failure.empty()) run.summary["failure"] = run.failure;
+  run.summary["time_reached"] = run.signals.time.back();
   run.summary["coordinates"] = model.velocities;
   run.summary["constraint_rows"] = model.rows;
   run.summary["degrees_of_freedom"] = freedom;
@@ -288,13 +274,11 @@ MechanismRun RunMechanism(const MechanismFile& given) {
                ledger.largest_angular_momentum_error);
   if (!trimmed.empty()) run.summary["equilibrium"] = MakeJson(trimmed);
   run.summary["friction_switches"] = ledger.switches;
-  if (!stops.empty()) run.summary["stops"] = stops.MakeJson();
-  nlohmann::ordered_json end;
-  for (size_t i = 0; i < positions.size(); ++i) end[positions[i].name] = y[i];
-  run.summary["end"] = end;
-  run.statistics = {{"steps", static_cast<double>(ledger.steps)},
-                    {"jacobians", static_cast<double>(ledger.jacobians)},
-                    {"friction_switches", static_cast<double>(ledger.switches)}};
+  if (run.finished) {  // only a finished run has counted its steps
+    run.statistics = {{"steps", static_cast<double>(ledger.steps)},
+                      {"jacobians", static_cast<double>(ledger.jacobians)}};
+  }
+  run.statistics.emplace_back("friction_switches", static_cast<double>(ledger.switches));
 
   run.text = FormatTrimmed(trimmed);
   run.text += fmt::format("{}: {} coordinates, {} constraint rows, {} degree{} of freedom\n",
@@ -304,19 +288,89 @@ MechanismRun RunMechanism(const MechanismFile& given) {
     run.text +=
         fmt::format("Redundant rows, reactions taken as zero: {}\n", fmt::join(redundant, ", "));
   }
+  run.text +=
+      run.finished
+          ? fmt::format("{:g} s by {}: {} steps\n", file.simulation.duration,
+                        GetMethodName(file.simulation.stepper.method), ledger.steps)
+          : fmt::format("{:g} s of {:g} s by {}, then it ended early\n", run.signals.time.back(),
+                        file.simulation.duration, GetMethodName(file.simulation.stepper.method));
   run.text += fmt::format(
-      "{:g} s by {}: {} steps\n"
       "Largest residual of the constraints: {:.1e} m or rad, {:.1e} m/s or rad/s\n"
       "Energy: start {:.6g} J, end {:.6g} J, supplied {:.6g} J, dissipated {:.6g} J\n"
       "Balance of energy off by {:.1e} J, largest kinetic energy {:.6g} J\n"
       "Balance of momentum off by {:.1e} N s, of angular momentum by {:.1e} N m s\n",
-      file.simulation.duration, GetMethodName(file.simulation.stepper.method), ledger.steps,
       ledger.largest_position_residual, ledger.largest_velocity_residual, ledger.energy_start,
       ledger.energy_end, ledger.supplied, ledger.dissipated, ledger.largest_energy_error,
       ledger.largest_kinetic, ledger.largest_momentum_error, ledger.largest_angular_momentum_error);
   if (ledger.switches > 0)
     run.text += fmt::format("Dry friction switched {} time{}\n", ledger.switches,
                             ledger.switches == 1 ? "" : "s");
+}
+
+}  // namespace
+
+void CheckNames(const MechanismFile& file, const Mechanism& mechanism) {
+  FindShownNames(file, mechanism);
+  CheckResponses(file, mechanism);
+  CheckTrim(file, mechanism);
+}
+
+MechanismRun RunMechanism(const MechanismFile& given, const Proceed& proceed) {
+  MechanismFile file = given;
+  Mechanism mechanism;
+  std::vector<TrimmedQuantity> trimmed;
+  try {
+    trimmed = Trim(file);
+    mechanism = MakeMechanism(file);
+  } catch (const io::InputError&) {
+    throw;
+  } catch (const std::runtime_error& error) {
+    throw io::RunError(error.what());
+  }
+  const mechanism::Model& model = mechanism.system.model;
+  CheckNames(file, mechanism);
+
+  MechanismRun run;
+  run.signals.channels = MakeChannels(mechanism);
+  run.positions = model.positions;
+  run.velocities = model.velocities;
+  run.rows = model.rows;
+  const ShownNames shown = FindShownNames(file, mechanism);
+  run.shown_coordinates = shown.coordinates;
+  run.shown_reactions = shown.reactions;
+
+  std::vector<double> y = mechanism.start;
+  solve::Ledger ledger;
+  StopWatch stops(file, mechanism);
+  mechanism::Workspace<double> w(model);
+  const auto observe = [&](double time, std::span<const double> state,
+                           mechanism::Evaluator& evaluator) {
+    AddSample(time, state, ledger, evaluator, run.signals);
+    if (!stops.empty()) {
+      mechanism::UpdatePositions(model, state.data(), w);
+      mechanism::UpdateVelocities(model, state.data() + model.positions, w);
+      stops.Look({model, time, state.data(), state.data() + model.positions, nullptr, nullptr, w});
+    }
+    if (proceed && !proceed(time)) throw Ended();
+  };
+  try {
+    solve::Simulate(mechanism.system, file.simulation, y, observe, ledger);
+  } catch (const Ended&) {
+    run.finished = false;
+  } catch (const std::runtime_error& error) {
+    DropUnfinishedSamples(run.signals);
+    if (run.signals.time.empty()) throw io::RunError(error.what());
+    run.finished = false;
+    run.failure = error.what();
+  }
+
+  for (const solve::FrictionEvent& event : ledger.events) {
+    const std::string& name = model.row_names[mechanism.system.friction[event.element].row];
+    run.friction_changes.push_back({event.time, name, event.mode});
+  }
+  AddSummary(file, mechanism, ledger, trimmed, run);
+  if (!stops.empty()) run.summary["stops"] = stops.MakeJson();
+  run.summary["end"] = MakeEnd(mechanism, run.signals);
   return run;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -16,8 +17,13 @@ namespace kingpin::joints {
 /// @throws io::InputError with file, line and key for one that names nothing
 void CheckNames(const MechanismFile& file, const Mechanism& mechanism);
 
-/// What simulating a mechanism file gives.
+/// Called with the time reached [s] at t = 0 and at every sample; false ends the run there.
+using Proceed = std::function<bool(double time)>;
+
+/// What simulating a mechanism file gives. One that ended early holds what was finished until then.
 struct MechanismRun {
+  bool finished = true;  ///< false: it failed, or `proceed` ended it
+  std::string failure;   ///< why it failed; empty: it did not
   /// Per coordinate position, rate, acceleration; per row its reaction; energies [J]: kinetic,
   /// potential, total, dissipated and supplied so far, balance (total - total at the start -
   /// supplied + dissipated); largest residuals of the constraints.
@@ -34,15 +40,15 @@ struct MechanismRun {
     int mode = 0;
   };
   std::vector<FrictionChange> friction_changes;
-  nlohmann::ordered_json
-      summary;       ///< degrees of freedom, redundant rows, residuals, energy balance, end state
-  std::string text;  ///< for the terminal
+  nlohmann::ordered_json summary;  ///< whether it finished, degrees of freedom, redundant rows,
+                                   ///< residuals, energy balance, end state
+  std::string text;                ///< for the terminal
   std::vector<std::pair<std::string, double>> statistics;
 };
 
 /// @throws io::InputError for a mechanism that cannot be put together, io::RunError when the run
-/// fails
-MechanismRun RunMechanism(const MechanismFile& file);
+/// fails before its first sample; later, `failure` says why
+MechanismRun RunMechanism(const MechanismFile& file, const Proceed& proceed = {});
 
 /// Equilibrium and modes of a mechanism file.
 struct MechanismModes {

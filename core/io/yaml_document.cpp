@@ -6,6 +6,7 @@
 #include <cstring>
 #include <istream>
 #include <map>
+#include <optional>
 #include <streambuf>
 #include <string_view>
 #include <system_error>
@@ -22,6 +23,7 @@
 
 #include "core/io/error.h"
 #include "core/io/nearest_name.h"
+#include "core/io/utf8.h"
 
 namespace kingpin::io {
 namespace {
@@ -327,9 +329,17 @@ NodePointer ParseYaml(std::string_view text, const std::string& name) {
     fail(0, fmt::format("{} bytes", text.size()),
          fmt::format("at most {} bytes", kLargestInputFile));
   }
+  const auto line_of = [&text](std::size_t at) {
+    return 1 +
+           static_cast<int>(std::count(text.begin(), text.begin() + static_cast<long>(at), '\n'));
+  };
   if (const std::size_t at = text.find('\0'); at != std::string_view::npos) {
-    fail(1 + static_cast<int>(std::count(text.begin(), text.begin() + static_cast<long>(at), '\n')),
-         "a zero byte", "a text file in UTF-8");
+    fail(line_of(at), "a zero byte", "a text file in UTF-8");
+  }
+  if (const std::optional<std::size_t> at = FindInvalidUtf8(text)) {
+    fail(line_of(*at),
+         fmt::format("the byte 0x{:02X}, which is no UTF-8", static_cast<unsigned char>(text[*at])),
+         "a text file in UTF-8");
   }
   const auto file = std::make_shared<const std::string>(name);
   NodeBuilder builder(file);

@@ -1,9 +1,10 @@
 #include <cstdio>
 
+#include "core/io/error.h"
 #include "core/solve/simulate.h"
 #include "joints/mechanism_builder.h"
 
-int main() {
+int main() try {
   using namespace kingpin;
   using joints::At;
   joints::MechanismBuilder m("four-bar linkage");
@@ -32,4 +33,7 @@ int main() {
                                     evaluator.reactions()[0]);
                       });
   std::printf("energy %.6g J, then %.6g J\n", ledger.energy_start, ledger.energy_end);
+} catch (const kingpin::io::InputError& error) {
+  std::fprintf(stderr, "%s\n", error.what());  // which part is wrong, what was expected
+  return 2;
 }

@@ -69,6 +69,25 @@ TEST_F(Program, MechanismsNameFileLineAndKey) {
        "closures:",
        "couplings.gear.terms: found coordinate 0 of joint 'A' twice, expected each coordinate "
        "once"},
+      {"closures:", "couplings:\n  gear: {terms: [{joint: A}, {joint: B, factor: 0}]}\nclosures:",
+       "m.yaml:12: couplings.gear.terms[1].factor: found 0, expected a factor that couples"},
+      {"closures:", "frictions:\n  pad: {joint: A}\nclosures:",
+       "m.yaml:12: frictions.pad: found dry friction whose limits are all 0, expected static_force "
+       "and kinetic_force, or"},
+      {"closures:", "frictions:\n  pad: {joint: A, static_coefficient: 0.1}\nclosures:",
+       "m.yaml:12: frictions.pad: found coefficients without a normal force, expected preload, "},
+      {"closures:", "  S: {type: spherical, child: ball, axis: [0, 0, 1]}\nclosures:",
+       "m.yaml:11: joints.S.axis: found a key that a joint of this type does not have, expected it "
+       "with joints that have an axis only"},
+      {"child: crank, axis: [0, -1, 0],", "child: crank, axis: [0, -1, 0], pitch: 1 mm/rad,",
+       "m.yaml:8: joints.A.pitch: found a key that a joint of this type does not have"},
+      {"child: crank, axis: [0, -1, 0],", "child: crank, second_axis: [0, -1, 0],",
+       "m.yaml:8: joints.A.second_axis: found a key that a joint"},
+      {"sample_interval: 1 ms", "sample_interval: 9.9e-10",
+       "m.yaml:13: simulation.sample_interval: found 9.9e-10 s, expected at least 1e-09 s: no more "
+       "than 1e+07 samples of a run of 0.01 s"},
+      {"name: four-bar", "name: four-b\xE4r",
+       "m.yaml:2: found the byte 0xE4, which is no UTF-8, expected a text file in UTF-8"},
       // what cannot be assembled
       {"b_at: [0.8, 0, 0]", "b_at: [5, 0, 0]", "m.yaml:12: C."},
       {"closures:",

@@ -158,6 +158,10 @@ TEST_F(Urdf, MistakesInStatesNameFileAndKey) {
       "gravty: found an unknown key, expected a key of the file; did you mean 'gravity'?");
   ExpectMistake(R"({"gravity": [0,0,1], "gravity": [0,0,2], "states": []})",
                 "gravity: found a key given twice in one object");
+  ExpectMistake(R"({"gravity": [0,0,1], "states": []})",
+                "states.json: states: found an empty list, expected at least one state");
+  ExpectMistake("{\"gravity\": [0,0,1],\n \"st\xE4tes\": []}",
+                "states.json:2: found the byte 0xE4, which is no UTF-8");
   ExpectMistake(R"({"gravity": [0,0,1], "states": 3})",
                 "states: found 3, expected a list of states");
   ExpectMistake(State(h, "[1, 2]", "[0]", "[0]"),
