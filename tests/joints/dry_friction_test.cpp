@@ -112,7 +112,9 @@ TEST(DryFriction, TheReactionIsTheFrictionForce) {
              const double force = evaluator.reactions()[0];
              EXPECT_NEAR(force, m * evaluator.accelerations()[0] + k * state[0], 1e-9);
              const int mode = evaluator.modes()[0];
-             if (mode != 0) EXPECT_NEAR(force, -mode * F, 1e-12);
+             if (mode != 0) {
+               EXPECT_NEAR(force, -mode * F, 1e-12);
+             }
              (mode == 0 ? sticking : sliding) += 1;
            });
   EXPECT_GT(sliding, 10);
