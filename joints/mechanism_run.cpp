@@ -36,7 +36,7 @@ const char* GetMethodName(solve::Method method) {
 
 int CountFreedom(const Mechanism& mechanism) {
   const std::span<const double> q(mechanism.start.data(), mechanism.system.model.positions);
-  return static_cast<int>(solve::CalcNullSpace(mechanism.system.model, q).cols());
+  return solve::CalcNullSpace(mechanism.system.model, q).freedoms();
 }
 
 std::vector<std::string> ListRedundantRows(const mechanism::Model& model) {
