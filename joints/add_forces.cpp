@@ -10,12 +10,12 @@
 
 #include "core/io/nearest_name.h"
 #include "core/mechanism/kinematics.h"
+#include "joints/axis_place.h"
 #include "joints/body_force.h"
 #include "joints/bushing.h"
 #include "joints/callback.h"
 #include "joints/element_group.h"
 #include "joints/fail.h"
-#include "joints/force_place.h"
 #include "joints/motor.h"
 #include "joints/spring.h"
 #include "joints/stop.h"
@@ -115,8 +115,8 @@ class Adder {
     return place;
   }
   AxisPlace MakePlace(const AboutAxis& axis) {
-    const AxisPlace place{MakeFrame("a", axis.a), MakeFrame("b", axis.b)};
-    CheckApart(axis.a, place.a, axis.b, place.b);
+    CheckApart(axis.a, MakeFrame("a", axis.a), axis.b, MakeFrame("b", axis.b));
+    AxisPlace place = MakeAxisPlace(mechanism_, axis);
     const Vector3<double> A = w_.R[place.a.link] * place.a.X_LF.R.z;
     const Vector3<double> B = w_.R[place.b.link] * place.b.X_LF.R.z;
     if (Dot(A, B) < -1 + 1e-9) {

@@ -36,9 +36,10 @@ struct LawDescription {
 struct BetweenPoints {
   FrameDescription a, b;
 };
-/// About an axis; x is the angle of b against a about a's z axis, in (-π, π]. The axes z need not
-/// be parallel: x is then the twist left when the shortest rotation between them is taken away. A
-/// joint's own angle (OnCoordinate) counts full turns, this one does not.
+/// About an axis; x is the angle of b against a about a's z axis. The axes z need not be parallel:
+/// x is then the twist left when the shortest rotation between them is taken away. Where the joints
+/// between a and b turn about that very axis or slide, x counts full turns by their coordinates;
+/// otherwise it is in (-π, π], and TurnWatch ends runs in which it jumps.
 struct AboutAxis {
   FrameDescription a, b;
 };

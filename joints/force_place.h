@@ -1,5 +1,9 @@
 #pragma once
 
+#include <cmath>
+#include <numbers>
+#include <vector>
+
 #include "core/math/elementary.h"
 #include "joints/relative_motion.h"
 
@@ -10,6 +14,17 @@ namespace kingpin::joints {
 
 using mechanism::Dual8;
 using mechanism::ForceContext;
+
+namespace internal {
+
+/// x without its derivatives.
+template <class S>
+double GetNumber(const S& x) {
+  using math::Value;
+  return Value(x);
+}
+
+}  // namespace internal
 
 /// x = |p_B - p_A|, ẋ = n·(v_B - v_A), with n from A to B. Where the points meet, n is zero.
 struct PointPlace {
@@ -46,8 +61,17 @@ struct PointPlace {
 ///
 /// θ̇ = n·(ω_B - ω_A) with n = (c (x_B×y_A - y_B×x_A) - s (x_B×x_A + y_B×y_A))/(c² + s²), which is
 /// z when the axes are parallel. Undefined when the z axes are opposite.
+///
+/// θ jumps from π to -π. Where joints that turn about the axis alone lie between the frames, full
+/// turns come from their coordinates: θ is the one nearest to offset + Σ sign q.
 struct AxisPlace {
   mechanism::Frame a, b;
+  struct Turn {
+    int q = 0;
+    double sign = 1;
+  };
+  std::vector<Turn> turns;  ///< empty: θ in (-π, π]
+  double offset = 0;
 
   template <class S>
   struct Value {
@@ -63,6 +87,12 @@ struct AxisPlace {
     const S s = Dot(B.x, A.y) - Dot(B.y, A.x), c = Dot(B.x, A.x) + Dot(B.y, A.y);
     Value<S> value;
     value.x = Atan2(s, c);
+    if (!turns.empty()) {
+      double counted = offset;
+      for (const Turn& turn : turns) counted += turn.sign * internal::GetNumber(context.q[turn.q]);
+      constexpr double kFull = 2 * std::numbers::pi;
+      value.x = value.x + S(kFull * std::round((counted - internal::GetNumber(value.x)) / kFull));
+    }
     value.n = (S(1.0) / (s * s + c * c)) *
               (c * (Cross(B.x, A.y) - Cross(B.y, A.x)) - s * (Cross(B.x, A.x) + Cross(B.y, A.y)));
     value.rate = Dot(value.n, w.V[b.link].w - w.V[a.link].w);

@@ -10,11 +10,13 @@
 #include "core/io/nearest_name.h"
 #include "core/math/cubic_spline.h"
 #include "core/math/dual.h"
+#include "core/mechanism/kinematics.h"
 #include "core/solve/equilibrium.h"
 #include "joints/add_forces.h"
 #include "joints/fail.h"
 #include "joints/mechanism_file_entries.h"
 #include "joints/mechanism_run.h"
+#include "joints/turn_watch.h"
 
 namespace kingpin::joints {
 
@@ -500,6 +502,23 @@ io::InputError NameSections(const io::InputError& error,
   return io::InputError(std::move(problems));
 }
 
+// The equilibrium, found without an angle having jumped on the way.
+void FindRest(const MechanismFile& file, Mechanism& mechanism) {
+  const mechanism::Model& model = mechanism.system.model;
+  TurnWatch turns(file.forces, mechanism);
+  mechanism::Workspace<double> w(model);
+  const auto look = [&] {
+    if (turns.empty()) return;
+    const double *q = mechanism.start.data(), *v = q + model.positions;
+    UpdatePositions(model, q, w);
+    UpdateVelocities(model, v, w);
+    turns.Look({model, 0.0, q, v, nullptr, nullptr, w});
+  };
+  look();
+  solve::FindEquilibrium(mechanism.system, {}, mechanism.start);
+  look();
+}
+
 }  // namespace
 
 MechanismFile ReadMechanismFile(const std::filesystem::path& path, const io::ReadOptions& options,
@@ -537,7 +556,7 @@ Mechanism MakeMechanism(const MechanismFile& file) {
   } catch (const io::InputError& error) {
     throw NameSections(error, file.forces);
   }
-  if (file.start_at_rest) solve::FindEquilibrium(mechanism.system, {}, mechanism.start);
+  if (file.start_at_rest) FindRest(file, mechanism);
   return mechanism;
 }
 

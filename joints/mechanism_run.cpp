@@ -11,10 +11,11 @@
 #include "core/mechanism/kinematics.h"
 #include "core/solve/linearise.h"
 #include "core/solve/null_space.h"
-#include "joints/force_place.h"
+#include "joints/axis_place.h"
 #include "joints/mechanism_linear.h"
 #include "joints/mechanism_names.h"
 #include "joints/mechanism_trim.h"
+#include "joints/turn_watch.h"
 
 namespace kingpin::joints {
 
@@ -36,7 +37,7 @@ const char* GetMethodName(solve::Method method) {
 
 int CountFreedom(const Mechanism& mechanism) {
   const std::span<const double> q(mechanism.start.data(), mechanism.system.model.positions);
-  return static_cast<int>(solve::CalcNullSpace(mechanism.system.model, q).cols());
+  return solve::CalcNullSpace(mechanism.system.model, q).freedoms();
 }
 
 std::vector<std::string> ListRedundantRows(const mechanism::Model& model) {
@@ -64,7 +65,7 @@ class StopWatch {
         watch.place = PointPlace{mechanism.MakeFrame(between->a), mechanism.MakeFrame(between->b)};
       } else if (const auto* about = std::get_if<AboutAxis>(&stop->place)) {
         watch.unit = "rad";
-        watch.place = AxisPlace{mechanism.MakeFrame(about->a), mechanism.MakeFrame(about->b)};
+        watch.place = MakeAxisPlace(mechanism, *about);
       }
       watches_.push_back(std::move(watch));
     }
@@ -342,14 +343,18 @@ MechanismRun RunMechanism(const MechanismFile& given, const Proceed& proceed) {
   std::vector<double> y = mechanism.start;
   solve::Ledger ledger;
   StopWatch stops(file, mechanism);
+  TurnWatch turns(file.forces, mechanism);
   mechanism::Workspace<double> w(model);
   const auto observe = [&](double time, std::span<const double> state,
                            mechanism::Evaluator& evaluator) {
     AddSample(time, state, ledger, evaluator, run.signals);
-    if (!stops.empty()) {
+    if (!stops.empty() || !turns.empty()) {
       mechanism::UpdatePositions(model, state.data(), w);
       mechanism::UpdateVelocities(model, state.data() + model.positions, w);
-      stops.Look({model, time, state.data(), state.data() + model.positions, nullptr, nullptr, w});
+      const mechanism::ForceContext<double> context{
+          model, time, state.data(), state.data() + model.positions, nullptr, nullptr, w};
+      stops.Look(context);
+      turns.Look(context);
     }
     if (proceed && !proceed(time)) throw Ended();
   };

@@ -30,17 +30,6 @@ Quaternion<double> MakeQuaternion(const Vector3<double>& r) {
   return {std::cos(0.5 * angle), s * r.x, s * r.y, s * r.z};
 }
 
-Vector3<double> CalcRotationVector(const Quaternion<double>& q) {
-  const double sign = q.w < 0 ? -1.0 : 1.0;
-  const double sine = std::sqrt(q.x * q.x + q.y * q.y + q.z * q.z);
-  const double cosine = sign * q.w;
-  const double t = sine / cosine;
-  const double scale =
-      sign * (sine < 1e-4 * cosine ? 2.0 * (1.0 - t * t / 3.0 + t * t * t * t / 5.0) / cosine
-                                   : 2.0 * std::atan2(sine, cosine) / sine);
-  return {scale * q.x, scale * q.y, scale * q.z};
-}
-
 Rotation<double> MakeRotationWithZ(const Vector3<double>& z) {
   const double ax = std::abs(z.x), ay = std::abs(z.y), az = std::abs(z.z);
   Vector3<double> x = {1, 0, 0};

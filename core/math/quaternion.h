@@ -50,9 +50,6 @@ Quaternion<double> MakeQuaternion(const Rotation<double>& R);
 /// The rotation by |r| about r (exponential map).
 Quaternion<double> MakeQuaternion(const Vector3<double>& rotation_vector);
 
-/// The rotation vector r of R, |r| <= pi (logarithm).
-Vector3<double> CalcRotationVector(const Quaternion<double>& q);
-
 /// A rotation whose z axis is the unit vector `z`; x is the projection of the coordinate axis least
 /// aligned with z.
 Rotation<double> MakeRotationWithZ(const Vector3<double>& z);

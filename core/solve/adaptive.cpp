@@ -140,6 +140,8 @@ class Bdf : public SundialsStepper {
       : SundialsStepper(evaluator, options),
         derivatives_(evaluator.system()),
         dense_(derivatives_.rows(), derivatives_.columns()),
+        unit_(evaluator.system().model.velocities, 0.0),
+        direction_(evaluator.system().model.positions),
         matrix_(SUNDenseMatrix(evaluator.system().size(), evaluator.system().size(), context_)),
         solver_(SUNLinSol_Dense(y_, matrix_, context_)) {}
   ~Bdf() override {
@@ -219,18 +221,17 @@ class Bdf : public SundialsStepper {
     const std::span<const double> y(N_VGetArrayPointer(state), system.size());
     if (!derivatives_.Calc(time, y, callbacks_.evaluator->workspace().active, dense_)) return false;
     SUNMatZero(matrix);
-    std::vector<double> unit(nv, 0.0), direction(nq);
     for (int j = 0; j < nv; ++j) {
-      unit[j] = 1;
-      CalcPositionRates(model, y.data(), unit.data(), direction.data());
-      unit[j] = 0;
+      unit_[j] = 1;
+      CalcPositionRates(model, y.data(), unit_.data(), direction_.data());
+      unit_[j] = 0;
       double square = 0;
-      for (double d : direction) square += d * d;
+      for (double d : direction_) square += d * d;
       for (int r = 0; r < nq; ++r) {
-        if (direction[r] == 0) continue;
-        SM_ELEMENT_D(matrix, r, nq + j) += direction[r];
+        if (direction_[r] == 0) continue;
+        SM_ELEMENT_D(matrix, r, nq + j) += direction_[r];
         for (int i = 0; i < n; ++i) {
-          SM_ELEMENT_D(matrix, nq + i, r) += dense_(i, j) * direction[r] / square;
+          SM_ELEMENT_D(matrix, nq + i, r) += dense_(i, j) * direction_[r] / square;
         }
       }
       for (int i = 0; i < n; ++i) SM_ELEMENT_D(matrix, nq + i, nq + j) += dense_(i, nv + j);
@@ -244,6 +245,7 @@ class Bdf : public SundialsStepper {
 
   mechanism::JacobianEvaluator derivatives_;
   Eigen::MatrixXd dense_;
+  std::vector<double> unit_, direction_;
   SUNMatrix matrix_;
   SUNLinearSolver solver_;
   void* memory_ = nullptr;

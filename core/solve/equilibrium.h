@@ -7,8 +7,9 @@
 namespace kingpin::solve {
 
 struct EquilibriumOptions {
-  double tolerance =
-      1e-9;  ///< of the accelerations left [m/s^2, rad/s^2] and of the rates of states
+  /// Of the accelerations left [m/s^2, rad/s^2] and of the rates of states; in stiff systems,
+  /// whose accelerations are rounded by more, see below.
+  double tolerance = 1e-9;
   int iterations = 500;
 };
 
@@ -28,7 +29,14 @@ struct Equilibrium {
 ///
 /// whose step δ grows as the accelerations fall. Far away it goes downhill, which leads to stable
 /// positions; near the end it is Newton's method. Directions in which nothing changes (a car's
-/// place on a plane) stay as they are.
+/// place on a plane) stay as they are. Where nothing can move, y rests as it is.
+///
+/// Positions near one (metre, radian) are rounded to ε = 2.2e-16, and accelerations with them to
+/// ε Σ_j |∂a_i/∂q_j|: 1e-4 in a steel beam of short elements, whose ω² is 1e12. Within that bound
+/// Newton steps go on as long as each at least halves what is left, and the last stands.
+///
+/// Drives stand still where they are at t = 0 while the position is sought. If they move there, the
+/// v returned follows them, with the least kinetic energy.
 ///
 /// Dry friction is left out: a position that friction alone holds is not unique.
 ///

@@ -13,15 +13,16 @@ namespace kingpin::solve {
 /// velocities, states) with as many positions as the holonomic rows leave and as many velocities as
 /// all active rows leave.
 ///
-/// Directions of motion are orthonormal bases of the constraints' null spaces: δq = T_q ξ, δv = T_v
-/// η + E ξ with Dᵀ E = -∂(Dᵀv)/∂q T_q, so that the velocities go on meeting the constraints as they
-/// turn. Exact derivatives, no differences. Exact for states at rest and for steady motions along
-/// which the constraints keep their place in the coordinates (a wheel's spin about its axis of
-/// symmetry); dry friction is left out.
+/// Directions of motion are bases of the constraints' null spaces, orthonormal in the mass matrix
+/// (Tᵀ M T = 1): δq = T_q ξ, δv = T_v η + E ξ with Dᵀ E = -∂(Dᵀv)/∂q T_q and T_vᵀ M E = 0, so that
+/// the velocities go on meeting the constraints as they turn. Exact derivatives, no differences.
+/// Exact for states at rest and for steady motions along which the constraints keep their place in
+/// the coordinates (a wheel's spin about its axis of symmetry); dry friction is left out.
 struct Linearisation {
   Eigen::MatrixXd A;
-  Eigen::MatrixXd position_basis;  ///< velocities x independent positions: δq directions per ξ
-  Eigen::MatrixXd velocity_basis;  ///< velocities x independent velocities
+  Eigen::MatrixXd position_basis;    ///< velocities x independent positions: δq directions per ξ
+  Eigen::MatrixXd velocity_basis;    ///< velocities x independent velocities
+  Eigen::MatrixXd velocity_inverse;  ///< T_vᵀ M: η of a δv
   // δ of each quantity per x = (ξ, η, states), all coordinates or rows:
   Eigen::MatrixXd displacement;  ///< δq along the velocity coordinates: [T_q, 0, 0]
   Eigen::MatrixXd rate;          ///< δv: [E, T_v, 0]

@@ -7,6 +7,8 @@ namespace kingpin::solve {
 
 std::unique_ptr<Stepper> MakeStepper(mechanism::Evaluator& evaluator,
                                      const StepperOptions& options) {
+  // The adaptive libraries want something to control.
+  if (evaluator.system().size() == 0) return MakeFixedStep(evaluator, options);
   switch (options.method) {
     case Method::kRosenbrock:
     case Method::kRungeKutta4:

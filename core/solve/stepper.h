@@ -41,7 +41,7 @@ class Stepper {
   virtual void Redo(double time, double end, std::span<double> y) = 0;
   virtual void Restart() {}
 
-  long steps = 0, jacobians = 0, rejected = 0;
+  long steps = 0, jacobians = 0;
 };
 
 std::unique_ptr<Stepper> MakeStepper(mechanism::Evaluator& evaluator,

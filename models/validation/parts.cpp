@@ -1,6 +1,9 @@
 #include "models/validation/parts.h"
 
+#include <span>
+
 #include "core/math/quaternion.h"
+#include "core/solve/null_space.h"
 
 namespace kingpin::validation {
 
@@ -52,9 +55,8 @@ joints::FrameDescription At(const std::string& body, const Vector3<double>& poin
 
 int CountFreedoms(const Mechanism& mechanism) {
   const mechanism::Model& model = mechanism.system.model;
-  int freedoms = model.velocities;
-  for (int r = 0; r < model.rows; ++r) freedoms -= !model.redundant[r] && !model.switching[r];
-  return freedoms;
+  const std::span<const double> q(mechanism.start.data(), model.positions);
+  return solve::CalcNullSpace(model, q).freedoms();
 }
 
 }  // namespace kingpin::validation

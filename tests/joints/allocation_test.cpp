@@ -109,6 +109,20 @@ TEST(Allocation, NoneInTheTimeLoop) {
   }
 }
 
+// The adaptive libraries take their memory when they begin.
+TEST(Allocation, NoneInTheTimeLoopOfAdaptiveMethods) {
+  if (!kCounts) GTEST_SKIP() << "the heap belongs to the sanitizer";
+  const Mechanism mechanisms[] = {MakeSampleTree(), MakeSampleLoop(), MakeSampleForces()};
+  for (const Mechanism& mechanism : mechanisms) {
+    for (solve::Method method : {solve::Method::kExplicit8, solve::Method::kBdf}) {
+      const Counted counted = CountInTimeLoop(mechanism, method, 0);
+      EXPECT_EQ(counted.allocations, 0)
+          << mechanism.system.name << ", method " << static_cast<int>(method);
+      EXPECT_GT(counted.steps, 100);
+    }
+  }
+}
+
 TEST(Allocation, NoneInAnyEvaluation) {
   if (!kCounts) GTEST_SKIP() << "the heap belongs to the sanitizer";
   const Mechanism mechanisms[] = {MakeSampleTree(), MakeSampleLoop(), MakeSampleFriction(),

@@ -6,6 +6,7 @@
 
 #include "core/mechanism/evaluator.h"
 #include "core/solve/equilibrium.h"
+#include "joints/mechanism_builder.h"
 #include "tests/joints/example_mechanisms.h"
 
 namespace kingpin::joints {
@@ -23,6 +24,37 @@ TEST(Linearise, ARodPendulumSwingsAtItsFrequency) {
   const auto modes = solve::CalcModes(solve::Linearise(pendulum.system, 0, pendulum.start));
   ASSERT_EQ(modes.size(), 1);
   EXPECT_NEAR(modes[0].frequency, std::sqrt(9.81 * 3 / 2) / (2 * std::numbers::pi), 1e-9);
+}
+
+// A shaft, clamped at one end, of n springs in the middles of n parts: ω_1 against the continuum's
+// π c/(2 L), whose relative error of order 1/n² lies below 1e-4 from 100 elements on, and against
+// the rigid finite elements' own sin(π/4n)/(π/4n).
+TEST(Modes, ALongUndampedShaftKeepsItsDigitsAndDoesNotGrow) {
+  for (int n : {40, 200}) {
+    bodies::BeamSegment segment;
+    segment.length = 0.4;
+    segment.section = bodies::RoundSection{0.015};
+    segment.material = {206e9, 79.3e9, 7830, 0, 0};
+    MechanismBuilder m("shaft");
+    m.Gravity({0, 0, 0});
+    BeamDescription beam;
+    beam.name = "shaft";
+    beam.at = {"world", {}};
+    beam.elements = bodies::MakeBeamElements({segment}, n);
+    beam.flexibility = BeamDescription::Flexibility::kTorsion;
+    m.AddBeam(beam);
+    const Mechanism shaft = m.Make();
+    const auto modes = solve::CalcModes(solve::Linearise(shaft.system, 0, shaft.start));
+    ASSERT_EQ(modes.size(), n);
+    const double x = std::numbers::pi / (4 * n);
+    const double expected = std::sqrt(79.3e9 / 7830) / (4 * 0.4) * std::sin(x) / x;
+    // the eigenvalue solver's rounding of the largest ω², against the least
+    const double ratio = modes.back().frequency / modes.front().frequency;
+    EXPECT_NEAR(modes[0].frequency / expected, 1, 2.2e-16 * n * ratio * ratio);
+    for (const solve::Mode& mode : modes) {
+      EXPECT_LE(std::abs(mode.eigenvalue.real()), 1e-12 * std::abs(modes.back().eigenvalue));
+    }
+  }
 }
 
 TEST(Equilibrium, TheFourBarHangsWhereItsPotentialIsLeast) {
