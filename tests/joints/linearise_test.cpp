@@ -7,6 +7,7 @@
 #include "core/mechanism/evaluator.h"
 #include "core/solve/equilibrium.h"
 #include "joints/mechanism_builder.h"
+#include "joints/mechanism_file.h"
 #include "tests/joints/example_mechanisms.h"
 
 namespace kingpin::joints {
@@ -24,6 +25,33 @@ TEST(Linearise, ARodPendulumSwingsAtItsFrequency) {
   const auto modes = solve::CalcModes(solve::Linearise(pendulum.system, 0, pendulum.start));
   ASSERT_EQ(modes.size(), 1);
   EXPECT_NEAR(modes[0].frequency, std::sqrt(9.81 * 3 / 2) / (2 * std::numbers::pi), 1e-9);
+}
+
+// Crank and rod in line: no row hangs on the crank there, and the order of elimination chosen for
+// other positions meets a pivot of zero. Stiffness k of the crank's spring and F r (1 + r/l) of the
+// slider's force; inertia of the crank, and of the rod about its end in the slider, (r/l)² of it.
+TEST(Linearise, ASliderCrankInItsDeadCentreSwingsAtItsFrequency) {
+  const double r = 0.08, l = 0.3, k = 3, F = 50;
+  const Mechanism mechanism = MakeMechanism(ReadMechanismText(R"(kind: mechanism
+gravity: [0, 0, 0]
+bodies:
+  crank:  {mass: 1, centre: [0.04, 0, 0], inertia: [1e-3, 1e-3, 1e-3]}
+  rod:    {mass: 0.5, centre: [0.15, 0, 0], inertia: [1e-4, 4e-3, 4e-3]}
+  slider: {mass: 2, inertia: [1e-3, 1e-3, 1e-3]}
+joints:
+  crk: {type: revolute, child: crank, axis: [0, 1, 0], angle: 0}
+  pin: {type: revolute, parent: crank, at: [0.08, 0, 0], child: rod, axis: [0, 1, 0], angle: 0}
+  guide: {type: prismatic, child: slider, axis: [1, 0, 0], displacement: 0.38}
+closures: {wrist: {type: spherical, a: rod, a_at: [0.3, 0, 0], b: slider}}
+springs: {s: {joint: crk, stiffness: 3}}
+motors: {m: {joint: guide, force: 50}}
+)",
+                                                              "slider_crank.yaml"));
+  const auto modes = solve::CalcModes(solve::Linearise(mechanism.system, 0, mechanism.start));
+  ASSERT_EQ(modes.size(), 1);
+  const double inertia = 1e-3 + 1 * 0.04 * 0.04 + (4e-3 + 0.5 * 0.15 * 0.15) * (r / l) * (r / l);
+  EXPECT_NEAR(modes[0].frequency,
+              std::sqrt((k + F * r * (1 + r / l)) / inertia) / (2 * std::numbers::pi), 1e-9);
 }
 
 // A shaft, clamped at one end, of n springs in the middles of n parts: ω_1 against the continuum's
