@@ -215,18 +215,27 @@ double Evaluator::CalcHighestForce(int f, bool kinetic) const {
   return (1 - kMargin) * limit;
 }
 
-// Solves the box problem; where limits depend on normal forces, until those agree.
+// Solves the box problem; where limits depend on normal forces, until those agree. They depend on
+// the friction in turn, in either direction: steps are shortened where they overshoot.
 void Evaluator::HoldAtRest(double time, std::span<const double> y) {
-  constexpr int kIterations = 30;
+  constexpr int kIterations = 60;
   const int n = box_.size();
+  double share = 1, before = 2;
   for (int iteration = 0; iteration < kIterations; ++iteration) {
-    bool agree = true;
+    double mismatch = 0;  // relative
     for (int i = 0; i < n; ++i) {
       const double limit = CalcHighestForce(at_rest_[i], moves_[at_rest_[i]]);
-      agree &= iteration > 0 && std::abs(limit - box_.limit[i]) <= 1e-10 * limit;
-      box_.limit[i] = limit;
+      if (iteration > 0 && limit != box_.limit[i]) {
+        mismatch = std::max(mismatch, std::abs(limit - box_.limit[i]) / (limit + box_.limit[i]));
+      }
     }
-    if (agree) return;
+    if (iteration > 0 && mismatch <= 1e-10) return;
+    if (mismatch > 0.5 * before) share *= 0.5;
+    before = mismatch;
+    for (int i = 0; i < n; ++i) {
+      const double limit = CalcHighestForce(at_rest_[i], moves_[at_rest_[i]]);
+      box_.limit[i] = iteration == 0 ? limit : box_.limit[i] + share * (limit - box_.limit[i]);
+    }
     box_.Solve();
     if (!depends_on_normals_) return;
     for (int i = 0; i < n; ++i) held_force_[at_rest_[i]] = box_.R[i];

@@ -143,7 +143,27 @@ class Run {
     return high;
   }
 
+  // The laws of friction and the motion may leave no way on (no acceleration agrees with the
+  // modes): modes then change without end at one instant.
+  void CountAtInstant(double time) {
+    constexpr int kMost = 200;
+    constexpr double kInstant = 1e-9;  // [s]
+    if (time - instant_ > kInstant) {
+      instant_ = time;
+      switches_at_instant_ = 0;
+    }
+    if (++switches_at_instant_ < kMost) return;
+    int culprit = 0;
+    for (size_t f = 0; f < switches_.size(); ++f) {
+      if (switches_[f] < switches_[culprit]) culprit = static_cast<int>(f);
+    }
+    throw std::runtime_error(fmt::format(
+        "dry friction '{}' switches without end at t = {:g} s: no motion agrees with its law",
+        system_.model.row_names[system_.friction[culprit].row], time));
+  }
+
   void Switch(double time) {
+    CountAtInstant(time);
     // The element that switched has come to rest (or just begins to move): its rate counts as zero.
     evaluator_.CalcSwitches(y_, switches_);
     for (size_t f = 0; f < switches_.size(); ++f) {
@@ -234,6 +254,8 @@ class Run {
   std::vector<double> before_, trial_, rate_, rate_before_, middle_, switches_;
   std::vector<int> modes_;
   double at_rest_ = 0;
+  double instant_ = 0;  // of the last switches
+  int switches_at_instant_ = 0;
   mechanism::Energy energy_;
   math::Wrench<double> external_;
   Ledger& ledger_;

@@ -211,7 +211,7 @@ TEST(MechanismFile, StartsThatCannotBeMeantAreErrors) {
     EXPECT_THAT(error,
                 HasSubstr("m.yaml:4: closures.weld: found frames a and b half a turn apart"));
   }
-  EXPECT_EQ(GetError(body + "joints: {j: {type: free, child: b, position: [0, 0, 0, 0.8, 0.6, 0, "
+  EXPECT_EQ(GetError(body + "joints: {j: {type: free, child: b, position: [0, 0, 0, 0.96, 0.28, 0, "
                             "0]}}\nclosures: {weld: {type: fixed, a: b}}\n"),
             "none");
   for (const char* quaternion : {"0, 0, 0, 0", "2, 0, 0, 0"}) {
@@ -224,7 +224,8 @@ TEST(MechanismFile, StartsThatCannotBeMeantAreErrors) {
       body + "joints: {j: {type: revolute, child: b, axis: [0, 1, 0], angle: 60 deg}}\n";
   EXPECT_THAT(GetError(hinge + "motions: {m: {joint: j, rate: 5}}\n"),
               HasSubstr("m.yaml:4: motions.m: found a motion that starts at 0, expected 1.0472"));
-  EXPECT_EQ(GetError(hinge + "motions: {m: {joint: j, start: 60 deg, rate: 5}}\n"), "none");
+  EXPECT_EQ(GetError(hinge + "motions: {m: {joint: j, start: 1.0471975511965976, rate: 5}}\n"),
+            "none");
 }
 
 TEST(MechanismFile, TheExamplesRunAndKeepTheirBooks) {
