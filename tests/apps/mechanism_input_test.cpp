@@ -96,7 +96,8 @@ TEST_F(Program, MechanismsNameFileLineAndKey) {
        "  rod 2: {type: distance, a: crank, a_at: [0.3, 0, 0], b: rocker, length: 0.7}",
        "rod 1: found a gap of 0.11"},
       {"closures:",
-       "motions:\n  turn: {joint: A, start: 1}\n  back: {joint: A, start: 1, rate: 2}\nclosures:",
+       "motions:\n  turn: {joint: A, start: 1.0471975511965976}\n  back: {joint: A, start: "
+       "1.0471975511965976, rate: 2}\nclosures:",
        "back"},
   };
   for (const auto& [before, after, message] : cases) {

@@ -45,11 +45,10 @@ double FindRestOfColumn(const std::string& springs) {
 
 std::string FindFailure(const std::string& text) {
   try {
-    RunMechanism(ReadMechanismText(text, "turns.yaml"));
+    return RunMechanism(ReadMechanismText(text, "turns.yaml")).failure;
   } catch (const std::runtime_error& error) {
     return error.what();
   }
-  return "";
 }
 
 TEST(AxisTurns, ASpringOfAColumnCountsThemByItsJoints) {

@@ -17,7 +17,7 @@ solve::Ledger CalcLedger(
   options.stepper.relative_tolerance = step_or_tolerance;
   options.stepper.absolute_tolerance = 0.01 * step_or_tolerance;
   options.duration = duration;
-  options.sample_interval = 0.005;  // the books are of order 4 in the steps, whatever the method
+  options.sample_interval = 0.004;  // the books are of order 4 in the steps, whatever the method
   std::vector<double> y = mechanism.start;
   return Simulate(mechanism.system, options, y, observe);
 }
