@@ -29,13 +29,7 @@ struct Pack {
 
   struct Mask {
     RegisterMask m;
-    KINGPIN_INLINE friend Mask operator&(const Mask& a, const Mask& b) {
-      if constexpr (N == 1) {
-        return {a.m && b.m};
-      } else {
-        return {a.m && b.m};
-      }
-    }
+    KINGPIN_INLINE friend Mask operator&(const Mask& a, const Mask& b) { return {a.m && b.m}; }
     KINGPIN_INLINE friend Mask operator|(const Mask& a, const Mask& b) { return {a.m || b.m}; }
     KINGPIN_INLINE friend Mask operator!(const Mask& a) { return {!a.m}; }
     KINGPIN_INLINE friend bool Any(const Mask& a) {

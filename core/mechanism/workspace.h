@@ -1,7 +1,5 @@
 #pragma once
 
-#include <cstring>
-#include <type_traits>
 #include <vector>
 
 #include "core/math/spatial_vector.h"
@@ -47,18 +45,6 @@ struct Workspace {
   Vector3<S> reference;
 };
 
-namespace internal {
-
-/// Entries from `first` on become NaN: all bits of every number set.
-template <class T>
-void FillWithNaN(std::vector<T>& values, size_t first = 0) {
-  static_assert(std::is_trivially_copyable_v<T>);
-  if (values.size() <= first) return;
-  std::memset(static_cast<void*>(values.data() + first), 0xff, (values.size() - first) * sizeof(T));
-}
-
-}  // namespace internal
-
 template <class S>
 Workspace<S>::Workspace(const Model& model)
     : R(model.links.size()),
@@ -80,22 +66,6 @@ Workspace<S>::Workspace(const Model& model)
   for (int r = 0; r < model.rows; ++r) {
     if (model.redundant[r] || model.switching[r]) active[r] = S(0.0);
   }
-#ifndef NDEBUG
-  // What is read before it is written shows. The world and the inputs have their values.
-  internal::FillWithNaN(R, 1);
-  internal::FillWithNaN(p, 1);
-  internal::FillWithNaN(V, 1);
-  internal::FillWithNaN(A);
-  internal::FillWithNaN(I);
-  internal::FillWithNaN(axes);
-  internal::FillWithNaN(local_axes);
-  internal::FillWithNaN(W);
-  internal::FillWithNaN(residual);
-  internal::FillWithNaN(bias);
-  internal::FillWithNaN(k);
-  internal::FillWithNaN(x);
-  internal::FillWithNaN(kept_k);
-#endif
 }
 
 }  // namespace kingpin::mechanism
