@@ -89,7 +89,7 @@ std::vector<Check> Calc() {
   const double roots[] = {1.8751040687119612, 4.6940911329741746};
   const auto coarse = CalcFrequencies(thin, 16, Flexibility::kTorsionAndBending, JointType::kFixed);
   const auto fine = CalcFrequencies(thin, 32, Flexibility::kTorsionAndBending, JointType::kFixed);
-  for (int k = 0; k < 2; ++k) {
+  for (size_t k = 0; k < 2; ++k) {
     const double exact = bend * roots[k] * roots[k];  // both planes bend alike: every other one
     checks.push_back(Compare(
         fmt::format("order of convergence to the continuum, bending mode {}, n = 16, 32", k + 1), 2,

@@ -220,8 +220,8 @@ OneBody::Load CalcOurs(const Mechanism& mechanism, mechanism::Evaluator& evaluat
 Errors CalcErrors(const Hung& hung) {
   Mechanism mechanism = MakeMechanism(hung.mechanism);
   AddForces(hung.forces, mechanism);
-  const auto [link, X_LF] = mechanism.GetBody("body");
-  const Vector3<double> in_link = X_LF * kCentre;
+  const mechanism::Frame& body = mechanism.GetBody("body");
+  const Vector3<double> in_link = body.X_LF * kCentre;
   State reference = hung.body.MakeStart();
   Real reached = 0;
   Errors errors;
@@ -230,7 +230,8 @@ Errors CalcErrors(const Hung& hung) {
         if (time > reached) hung.body.Advance(reached, time, reference);
         reached = time;
         const auto& w = evaluator.workspace();
-        const Vector3<double> centre = w.R[link] * in_link + w.p[link];  // from the common point
+        const Vector3<double> centre =
+            w.R[body.link] * in_link + w.p[body.link];  // from the common point
         errors.place = std::max(errors.place,
                                 static_cast<double>(CalcNorm(Exact(w.reference + centre) -
                                                              OneBody::GetPlace(reference).centre)));

@@ -17,8 +17,8 @@ inline Real Differentiate(const std::function<Real(Real)>& f, Real x) {
 
 /// Rates of a mechanism with one coordinate θ, kinetic energy 1/2 A(θ) θ̇² and potential V(θ):
 /// A θ̈ = -1/2 A' θ̇² - V'. State: θ, θ̇.
-inline Rates MakeOneFreedom(std::function<Real(Real)> inertia,
-                            std::function<Real(Real)> potential) {
+inline Rates MakeOneFreedom(const std::function<Real(Real)>& inertia,
+                            const std::function<Real(Real)>& potential) {
   return [=](Real, const State& s, State& r) {
     r[0] = s[1];
     r[1] = -(Differentiate(inertia, s[0]) * s[1] * s[1] / 2 + Differentiate(potential, s[0])) /
