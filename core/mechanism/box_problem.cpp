@@ -49,6 +49,20 @@ void BoxProblem::Solve() {
   CalcAccelerations();
 }
 
+// Takes a pivot out of the rows still to be used, and of their right sides.
+void BoxProblem::Eliminate(int pivot) {
+  const double* pivot_row = &factor_[static_cast<size_t>(pivot) * capacity_];
+  for (int i = 0; i < size_; ++i) {
+    if (used_[i]) continue;
+    double* row = &factor_[static_cast<size_t>(i) * capacity_];
+    const double l = row[pivot] / pivot_row[pivot];
+    for (int j = 0; j < size_; ++j) {
+      if (!used_[j]) row[j] -= l * pivot_row[j];
+    }
+    right_[i] -= l * right_[pivot];
+  }
+}
+
 // A R = -b in the free rows, by Cholesky's factorisation with the strongest left as the next pivot;
 // what depends on the others takes no part.
 void BoxProblem::SolveFree() {
@@ -76,16 +90,7 @@ void BoxProblem::SolveFree() {
     if (best < 0) break;
     used_[best] = 1;
     pivots_.push_back(best);
-    const double* pivot_row = &factor_[static_cast<size_t>(best) * capacity_];
-    for (int i = 0; i < size_; ++i) {
-      if (used_[i]) continue;
-      double* row = &factor_[static_cast<size_t>(i) * capacity_];
-      const double l = row[best] / pivot_row[best];
-      for (int j = 0; j < size_; ++j) {
-        if (!used_[j]) row[j] -= l * pivot_row[j];
-      }
-      right_[i] -= l * right_[best];
-    }
+    Eliminate(best);
   }
   for (size_t k = pivots_.size(); k-- > 0;) {
     const int i = pivots_[k];
@@ -160,15 +165,7 @@ void BoxProblem::KeepIndependent(std::span<char> candidates) {
     }
     if (best < 0) return;
     candidates[best] = used_[best] = 1;
-    const double* pivot_row = &factor_[static_cast<size_t>(best) * capacity_];
-    for (int i = 0; i < size_; ++i) {
-      if (used_[i]) continue;
-      double* row = &factor_[static_cast<size_t>(i) * capacity_];
-      const double l = row[best] / pivot_row[best];
-      for (int j = 0; j < size_; ++j) {
-        if (!used_[j]) row[j] -= l * pivot_row[j];
-      }
-    }
+    Eliminate(best);
   }
 }
 

@@ -45,6 +45,7 @@ class BoxProblem {
  private:
   enum class State : char { kFree, kUpper, kLower };
   void SolveFree();
+  void Eliminate(int pivot);
   void CalcAccelerations();
   int FindWorstBeyondLimit() const;
   int FindWorstHeldBack() const;

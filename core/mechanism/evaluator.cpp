@@ -41,6 +41,7 @@ Evaluator::Evaluator(const System& system)
       normal_now_(system.friction.size()),
       normal_base_(system.friction.size()),
       normal_mismatch_(static_cast<int>(system.friction.size())),
+      normal_change_(normal_mismatch_.size()),
       normal_jacobian_(normal_mismatch_.size(), normal_mismatch_.size()),
       normal_lu_(normal_mismatch_.size()),
       box_(static_cast<int>(system.friction.size())),

@@ -136,7 +136,7 @@ class Evaluator {
   std::vector<char> held_;          // per friction element: sticks as a row
   std::vector<double> held_force_;  // that it exerts if it sticks and is no row
   std::vector<double> normal_now_, normal_base_;
-  Eigen::VectorXd normal_mismatch_;
+  Eigen::VectorXd normal_mismatch_, normal_change_;
   Eigen::MatrixXd normal_jacobian_;
   Eigen::PartialPivLU<Eigen::MatrixXd> normal_lu_;
   BoxProblem box_;

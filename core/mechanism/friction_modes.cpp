@@ -126,8 +126,8 @@ void Evaluator::ImproveNormals(std::span<double> found) {
   }
   for (int i = 0; i < n; ++i) normal_mismatch_[i] = normal_[i] - normal_base_[i];
   normal_lu_.compute(normal_jacobian_);
-  normal_mismatch_ = normal_lu_.solve(normal_mismatch_).eval();
-  for (int i = 0; i < n; ++i) normal_[i] = std::max(0.0, normal_[i] + normal_mismatch_[i]);
+  normal_change_ = normal_lu_.solve(normal_mismatch_);
+  for (int i = 0; i < n; ++i) normal_[i] = std::max(0.0, normal_[i] + normal_change_[i]);
 }
 
 // Accelerations with the friction forces of the present modes. Where a limit depends on a normal
